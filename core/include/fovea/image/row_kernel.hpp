@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// Row kernels: the form of every neighbourhood operator. One kernel serves whole frames, strips of a frame
+// and streams of rows, with the same bits in all of them.
+//
+// A row kernel is an object with
+//     using Input = ...;   using Output = ...;         the pixels it reads and writes
+//     int rows() const;                                the height of its window, odd
+//     void operator()(const RowWindow<Input>& window, Output* dst);
+// that makes one output row from the rows of its window. It may hold scratch, but nothing that survives a
+// row.
+#pragma once
+
+#include <fovea/base/assert.hpp>
+#include <fovea/image/border.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+
+namespace fovea {
+
+/// The highest window of a row kernel; bounds the row pointers on the stack.
+inline constexpr int max_window_rows = 63;
+
+/// The rows of a window from top to bottom, each width pixels long. Rows beyond the image are already
+/// replaced.
+template <class Pixel>
+class RowWindow {
+public:
+    RowWindow(const Pixel* const* rows, int count, int width) : rows_(rows), count_(count), width_(width) {}
+
+    int count() const { return count_; }
+    int width() const { return width_; }
+    const Pixel* operator[](int index) const {
+        FOVEA_ASSERT(index >= 0 && index < count_);
+        return rows_[index];
+    }
+
+private:
+    const Pixel* const* rows_;
+    int count_;
+    int width_;
+};
+
+/// Runs a row kernel over rows first..last of a frame, top to bottom; dst holds those rows alone.
+///
+/// Shapes   src as wide as dst; dst last - first + 1 rows
+/// Border   rows beyond src as border says; the kernel does the columns
+/// Overlap  none
+template <class Kernel>
+void for_each_row(ImageView<const typename Kernel::Input> src, Border border, int first, int last,
+                  Kernel& kernel, ImageView<typename Kernel::Output> dst) {
+    using Input = typename Kernel::Input;
+    const int rows = kernel.rows();
+    FOVEA_ASSERT(rows % 2 == 1 && rows <= max_window_rows && last - first < dst.height());
+    const Input* window[max_window_rows];
+    for (int y = first; y <= last; ++y) {
+        for (int i = 0; i < rows; ++i)
+            window[i] = src.row(border_index(border, y - rows / 2 + i, src.height()));
+        kernel(RowWindow<Input>(window, rows, src.width()), dst.row(y - first));
+    }
+}
+
+/// Runs a row kernel over a whole frame.
+template <class Kernel>
+void for_each_row(ImageView<const typename Kernel::Input> src, Border border, Kernel& kernel,
+                  ImageView<typename Kernel::Output> dst) {
+    for_each_row(src, border, 0, src.height() - 1, kernel, dst);
+}
+
+}  // namespace fovea

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+//
+// Fixed: a number with a fixed count of fraction bits, and the formats that fovea's interfaces use.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <fovea/base/assert.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea {
+
+/// raw / 2^FractionBits, with no implicit conversion in or out.
+///
+/// Overflow  sums and differences must fit Rep: the interface that uses a format states why they do
+/// Rounding  to the nearest, ties toward plus infinity, wherever bits are dropped
+template <class Rep, int FractionBits>
+class Fixed {
+public:
+    static_assert(std::is_integral_v<Rep> && std::is_signed_v<Rep>, "Fixed is made of a signed integer");
+    static_assert(FractionBits >= 0 && FractionBits < static_cast<int>(sizeof(Rep) * 8),
+                  "too many fraction bits");
+
+    static constexpr int fraction_bits = FractionBits;
+    static constexpr Rep one = static_cast<Rep>(static_cast<Rep>(1) << FractionBits);
+
+    constexpr Fixed() = default;
+    static constexpr Fixed from_raw(Rep raw) {
+        Fixed number;
+        number.raw_ = raw;
+        return number;
+    }
+    static constexpr Fixed from_int(int value) {
+        return from_raw(static_cast<Rep>(static_cast<Rep>(value) * one));
+    }
+    /// numerator / denominator, rounded, saturated at the ends of the format. denominator > 0, |numerator| <
+    /// 2^62 / one.
+    static constexpr Fixed from_ratio(std::int64_t numerator, std::int64_t denominator) {
+        return from_raw(saturate_cast<Rep>(round_divide(numerator * one, denominator)));
+    }
+
+    constexpr Rep raw() const { return raw_; }
+    constexpr int floor() const { return static_cast<int>(raw_ >> FractionBits); }
+    constexpr int round() const {
+        return static_cast<int>(round_shift(static_cast<std::int64_t>(raw_), FractionBits));
+    }
+
+    /// The same number in another format, rounded and saturated.
+    template <class To>
+    constexpr To convert() const {
+        constexpr int drop = FractionBits - To::fraction_bits;
+        if constexpr (drop >= 0)
+            return To::from_raw(
+                saturate_cast<decltype(To().raw())>(round_shift(static_cast<std::int64_t>(raw_), drop)));
+        else
+            return To::from_raw(saturate_cast<decltype(To().raw())>(static_cast<std::int64_t>(raw_) *
+                                                                    (std::int64_t{1} << -drop)));
+    }
+
+    friend constexpr Fixed operator+(Fixed a, Fixed b) { return from_raw(static_cast<Rep>(a.raw_ + b.raw_)); }
+    friend constexpr Fixed operator-(Fixed a, Fixed b) { return from_raw(static_cast<Rep>(a.raw_ - b.raw_)); }
+    friend constexpr Fixed operator-(Fixed a) { return from_raw(static_cast<Rep>(-a.raw_)); }
+    friend constexpr Fixed operator*(Fixed a, int b) { return from_raw(static_cast<Rep>(a.raw_ * b)); }
+    constexpr Fixed& operator+=(Fixed b) { return *this = *this + b; }
+    constexpr Fixed& operator-=(Fixed b) { return *this = *this - b; }
+    friend constexpr bool operator==(Fixed a, Fixed b) { return a.raw_ == b.raw_; }
+    friend constexpr bool operator!=(Fixed a, Fixed b) { return a.raw_ != b.raw_; }
+    friend constexpr bool operator<(Fixed a, Fixed b) { return a.raw_ < b.raw_; }
+    friend constexpr bool operator>(Fixed a, Fixed b) { return a.raw_ > b.raw_; }
+    friend constexpr bool operator<=(Fixed a, Fixed b) { return a.raw_ <= b.raw_; }
+    friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw_ >= b.raw_; }
+
+private:
+    Rep raw_ = 0;
+};
+
+/// A sub-pixel coordinate or length in an image: 1/256 px, up to 8 million px.
+using SubPixel = Fixed<std::int32_t, 8>;
+
+/// A sine, a cosine, a component of a unit vector: 2^-30, from -2 to just below 2.
+using Unit = Fixed<std::int32_t, 30>;
+
+}  // namespace fovea

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+//
+// Integer helpers: the only ways in which fovea narrows, shifts and divides with rounding.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include <fovea/base/assert.hpp>
+
+namespace fovea {
+
+static_assert((-1 >> 1) == -1, "fovea needs an arithmetic right shift of negative numbers");
+
+template <class T>
+constexpr T minimum(T a, T b) {
+    return b < a ? b : a;
+}
+template <class T>
+constexpr T maximum(T a, T b) {
+    return a < b ? b : a;
+}
+template <class T>
+constexpr T clamp(T value, T low, T high) {
+    return value < low ? low : value > high ? high : value;
+}
+
+/// The absolute value as unsigned, right for the most negative number too.
+constexpr std::uint32_t magnitude(std::int32_t value) {
+    return value < 0 ? 0u - static_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
+}
+constexpr std::uint64_t magnitude(std::int64_t value) {
+    return value < 0 ? 0u - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+}
+
+/// Narrows to To, held at To's ends.
+template <class To, class From>
+constexpr To saturate_cast(From value) {
+    static_assert(std::is_integral_v<To> && std::is_integral_v<From>, "saturate_cast works on integers");
+    static_assert(sizeof(To) < sizeof(std::int64_t) || std::is_signed_v<To>, "the target must fit int64");
+    static_assert(sizeof(From) < sizeof(std::int64_t) || std::is_signed_v<From>, "the source must fit int64");
+    const std::int64_t wide = static_cast<std::int64_t>(value);
+    const std::int64_t low = static_cast<std::int64_t>(std::numeric_limits<To>::min());
+    const std::int64_t high = static_cast<std::int64_t>(std::numeric_limits<To>::max());
+    return static_cast<To>(clamp(wide, low, high));
+}
+
+/// value / 2^bits to the nearest, ties toward plus infinity. value + 2^(bits-1) must not overflow.
+template <class T>
+constexpr T round_shift(T value, int bits) {
+    if (bits <= 0) return value;
+    return static_cast<T>((value + (static_cast<T>(1) << (bits - 1))) >> bits);
+}
+
+/// Quotient toward minus infinity. divisor > 0.
+template <class T>
+constexpr T floor_divide(T value, T divisor) {
+    FOVEA_ASSERT(divisor > 0);
+    const T quotient = static_cast<T>(value / divisor);
+    return static_cast<T>(value % divisor < 0 ? quotient - 1 : quotient);
+}
+
+/// Quotient to the nearest, ties toward plus infinity. divisor > 0; value + divisor / 2 must not overflow.
+template <class T>
+constexpr T round_divide(T value, T divisor) {
+    FOVEA_ASSERT(divisor > 0);
+    const T quotient = floor_divide(value, divisor);
+    const T remainder = static_cast<T>(value - quotient * divisor);
+    return static_cast<T>(remainder >= divisor - remainder ? quotient + 1 : quotient);
+}
+
+/// Leading zero bits; 32 and 64 for zero.
+constexpr int leading_zeros(std::uint32_t value) { return value == 0 ? 32 : __builtin_clz(value); }
+constexpr int leading_zeros(std::uint64_t value) { return value == 0 ? 64 : __builtin_clzll(value); }
+
+/// The largest integer whose square is not above value: 16 or 32 exact steps, no division.
+constexpr std::uint32_t isqrt(std::uint32_t value) {
+    std::uint32_t root = 0;
+    std::uint32_t bit = 1u << 30;
+    while (bit > value) bit >>= 2;
+    for (; bit != 0; bit >>= 2) {
+        const std::uint32_t trial = root + bit;
+        root >>= 1;
+        if (value >= trial) {
+            value -= trial;
+            root += bit;
+        }
+    }
+    return root;
+}
+constexpr std::uint32_t isqrt(std::uint64_t value) {
+    std::uint64_t root = 0;
+    std::uint64_t bit = std::uint64_t{1} << 62;
+    while (bit > value) bit >>= 2;
+    for (; bit != 0; bit >>= 2) {
+        const std::uint64_t trial = root + bit;
+        root >>= 1;
+        if (value >= trial) {
+            value -= trial;
+            root += bit;
+        }
+    }
+    return static_cast<std::uint32_t>(root);
+}
+
+/// The high 32 bits of a 64-bit product, rounded down.
+constexpr std::int32_t multiply_high(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(a) * b >> 32);
+}
+
+}  // namespace fovea

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+//
+// Bytes and Words: many pixels at once, with one meaning on every processor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include <fovea/simd/backend.hpp>
+#include <fovea/simd/isa.hpp>
+
+namespace fovea {
+inline namespace FOVEA_ISA {
+namespace simd {
+
+/// As many 8-bit pixels as fit a vector.
+struct Bytes {
+    RawBytes raw;
+
+    [[gnu::always_inline]] static Bytes all(std::uint8_t value) { return {all_bytes(value)}; }
+    [[gnu::always_inline]] static Bytes load(const std::uint8_t* from) {
+        Bytes bytes;
+        std::memcpy(&bytes.raw, from, static_cast<std::size_t>(lanes));
+        return bytes;
+    }
+    /// The first count pixels, zeros behind them.
+    [[gnu::always_inline]] static Bytes load(const std::uint8_t* from, int count) {
+        Bytes bytes{};
+        std::memcpy(&bytes.raw, from, static_cast<std::size_t>(count));
+        return bytes;
+    }
+    [[gnu::always_inline]] void store(std::uint8_t* to) const {
+        std::memcpy(to, &raw, static_cast<std::size_t>(lanes));
+    }
+    [[gnu::always_inline]] void store(std::uint8_t* to, int count) const {
+        std::memcpy(to, &raw, static_cast<std::size_t>(count));
+    }
+
+    [[gnu::always_inline]] friend Bytes lower(Bytes a, Bytes b) { return {lower(a.raw, b.raw)}; }
+    [[gnu::always_inline]] friend Bytes higher(Bytes a, Bytes b) { return {higher(a.raw, b.raw)}; }
+    /// 255 where a >= b, else 0.
+    [[gnu::always_inline]] friend Bytes at_least(Bytes a, Bytes b) { return {at_least(a.raw, b.raw)}; }
+    [[gnu::always_inline]] friend Bytes operator&(Bytes a, Bytes b) { return {a.raw & b.raw}; }
+    [[gnu::always_inline]] friend Bytes operator|(Bytes a, Bytes b) { return {a.raw | b.raw}; }
+    [[gnu::always_inline]] friend Bytes operator^(Bytes a, Bytes b) { return {a.raw ^ b.raw}; }
+    [[gnu::always_inline]] friend Bytes operator~(Bytes a) { return {~a.raw}; }
+};
+
+/// The same pixels at 16 bits, even and odd columns apart, so that nothing is shuffled.
+///
+/// Contract  every sum, product and left shift stays a non-negative value below 2^16, or comes from a
+/// difference and
+///           goes only into absolute() or another difference: a negative half must not be the left side of a
+///           sum, because the word back end would carry into its neighbour. Write c + 1024 - a, not c - a +
+///           1024.
+struct Words {
+    RawWords even;
+    RawWords odd;
+
+    Words() = default;
+    [[gnu::always_inline]] Words(RawWords even_columns, RawWords odd_columns)
+        : even(even_columns), odd(odd_columns) {}
+    [[gnu::always_inline]] explicit Words(Bytes bytes) {
+        const RawWords pairs = bits_as<RawWords>(bytes.raw);
+        const RawWords low = pairs & all_words(255);
+        const RawWords high = shift_right(pairs, 8);
+        even = big_endian ? high : low;
+        odd = big_endian ? low : high;
+    }
+    [[gnu::always_inline]] static Words all(std::uint16_t value) {
+        return {all_words(value), all_words(value)};
+    }
+
+    /// Back to pixels; all values must be below 256.
+    [[gnu::always_inline]] Bytes narrow() const {
+        const RawWords pairs = big_endian ? (odd | shift_left(even, 8)) : (even | shift_left(odd, 8));
+        return {bits_as<RawBytes>(pairs)};
+    }
+    /// Back to pixels, values above 255 become 255.
+    [[gnu::always_inline]] Bytes saturate() const {
+        return Words{at_most_255(even), at_most_255(odd)}.narrow();
+    }
+
+    [[gnu::always_inline]] friend Words operator+(Words a, Words b) {
+        return {plus(a.even, b.even), plus(a.odd, b.odd)};
+    }
+    [[gnu::always_inline]] friend Words operator-(Words a, Words b) {
+        return {minus(a.even, b.even), minus(a.odd, b.odd)};
+    }
+    [[gnu::always_inline]] friend Words operator*(Words a, std::uint16_t k) {
+        return {times(a.even, k), times(a.odd, k)};
+    }
+    [[gnu::always_inline]] friend Words operator<<(Words a, int n) {
+        return {shift_left(a.even, n), shift_left(a.odd, n)};
+    }
+    [[gnu::always_inline]] friend Words operator>>(Words a, int n) {
+        return {shift_right(a.even, n), shift_right(a.odd, n)};
+    }
+    [[gnu::always_inline]] friend Words absolute(Words a) { return {absolute(a.even), absolute(a.odd)}; }
+
+private:
+    static constexpr bool big_endian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+};
+
+}  // namespace simd
+}  // namespace FOVEA_ISA
+}  // namespace fovea
