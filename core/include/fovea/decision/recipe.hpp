@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+//
+// Recipe: what a gauge looks for and what it measures. Data alone, of fixed size: a file on a host, flash on
+// a chip.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/list.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/decision/tolerance.hpp>
+#include <fovea/number/decimal.hpp>
+
+namespace fovea {
+
+/// The unit of every length in a recipe and of what is measured.
+enum class LengthUnit : std::uint8_t { pixel, millimetre };
+
+/// Units per pixel along x and y of the image, in millionths (nanometres a pixel when the unit is mm).
+struct Scale {
+    LengthUnit unit = LengthUnit::pixel;
+    std::int64_t x_per_pixel = 1000000;
+    std::int64_t y_per_pixel = 1000000;
+};
+
+/// The finest and the coarsest scale, in millionths of a unit per pixel: 10 nm to 100 mm.
+inline constexpr std::int64_t min_units_per_pixel = 10;
+inline constexpr std::int64_t max_units_per_pixel = 100000000;
+
+enum class ThresholdRule : std::uint8_t { fixed, otsu, quantile };
+
+/// How the direction of a part is found.
+enum class OrientationRule : std::uint8_t {
+    full,       ///< axis and the 180-degree decision; a part without a certain one is not judged
+    symmetric,  ///< the axis alone: the part looks the same when turned by half
+    none,       ///< the image's own directions: round parts, or parts that lie in a fixture
+};
+
+struct LocateRule {
+    bool dark_part = true;  ///< dark part on bright ground (back light), else bright on dark
+    ThresholdRule threshold = ThresholdRule::otsu;
+    std::uint8_t level = 128;            ///< of the fixed rule
+    std::int64_t area_min = 100;         ///< pixels
+    std::int64_t area_max = 1073741824;  ///< pixels
+    std::int64_t hole_area_min = 20;     ///< pixels; smaller holes are dirt
+    bool at_border = false;              ///< measure parts that touch the border of the image too
+    OrientationRule orientation = OrientationRule::full;
+};
+
+enum class FeatureKind : std::uint8_t {
+    distance,       ///< between two edges along a probe
+    width,          ///< of the material along a probe, outer edge to outer edge
+    diameter,       ///< of a circle through radial probes around a place
+    angle,          ///< between two straight edges
+    hole_count,     ///< holes of at least hole_area_min
+    hole_diameter,  ///< of the hole nearest to a place
+    position,       ///< distance of the hole nearest to a place from that place
+};
+
+/// A place in the frame of the part, in millionths of the unit: origin at the centroid, x along the axis of
+/// the part, y a quarter turn clockwise from it on screen.
+struct PartPoint {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+};
+
+/// The farthest a coordinate or length in a recipe may be from zero, in millionths.
+inline constexpr std::int64_t max_part_coordinate = 100000000000;
+
+struct Feature {
+    static constexpr int max_name = 31;
+
+    char name[max_name + 1] = {};
+    FeatureKind kind = FeatureKind::width;
+    PartPoint from;           ///< distance, width: start of the probe. angle: start of the first edge
+    PartPoint to;             ///< distance, width: end of the probe. angle: end of the first edge
+    PartPoint second_from;    ///< angle: start of the second edge
+    PartPoint second_to;      ///< angle: end of the second edge
+    PartPoint centre;         ///< diameter, hole_diameter, position: the place
+    std::int64_t radius = 0;  ///< diameter: where the edge is expected, in millionths of the unit
+    std::int64_t search =
+        0;                 ///< how far from the expected edge or place is looked, in millionths of the unit
+    int lines = 15;        ///< distance, width: parallel lines that are averaged, one pixel apart
+    int probes = 32;       ///< diameter, hole_diameter, angle: probes along the contour
+    int first_edge = 1;    ///< distance: number of the edge from the start, or from the end when negative
+    int second_edge = -1;  ///< distance: likewise
+    Tolerance tolerance;   ///< in the unit; degrees for angle, a number for hole_count
+};
+
+struct Recipe {
+    static constexpr int max_features = 24;
+
+    char name[Feature::max_name + 1] = {};
+    Scale scale;
+    LocateRule locate;
+    List<Feature, max_features> features;
+};
+
+/// The length of a name that ends with a zero or at its capacity.
+template <std::size_t N>
+constexpr Span<const char> name_of(const char (&name)[N]) {
+    std::ptrdiff_t length = 0;
+    while (length < static_cast<std::ptrdiff_t>(N) && name[length] != '\0') ++length;
+    return {name, length};
+}
+
+}  // namespace fovea
