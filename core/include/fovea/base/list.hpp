@@ -28,6 +28,11 @@ public:
         return data_[index];
     }
     constexpr void clear() const { *size_ = 0; }
+    /// Keeps the first count elements.
+    constexpr void shrink(int count) const {
+        FOVEA_ASSERT(count >= 0 && count <= *size_);
+        *size_ = count;
+    }
 
     /// Appends, or answers capacity_exceeded and leaves the list as it was.
     constexpr Status push(const T& value) const {

@@ -39,6 +39,15 @@ struct SubPixelPoint {
     friend constexpr bool operator!=(SubPixelPoint a, SubPixelPoint b) { return !(a == b); }
 };
 
+/// A place that was measured, in 1/65536 px.
+struct FinePoint {
+    FinePixel x;
+    FinePixel y;
+
+    friend constexpr bool operator==(FinePoint a, FinePoint b) { return a.x == b.x && a.y == b.y; }
+    friend constexpr bool operator!=(FinePoint a, FinePoint b) { return !(a == b); }
+};
+
 /// Columns x..x+width-1 and rows y..y+height-1.
 struct Rectangle {
     int x = 0;

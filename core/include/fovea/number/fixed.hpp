@@ -78,6 +78,15 @@ private:
 /// A sub-pixel coordinate or length in an image: 1/256 px, up to 8 million px.
 using SubPixel = Fixed<std::int32_t, 8>;
 
+/// A place or length that was measured: 1/65536 px, up to 32767 px.
+using FinePixel = Fixed<std::int32_t, 16>;
+
+/// A brightness between the grey levels, or a step of it: 1/65536 level.
+using GrayLevel = Fixed<std::int32_t, 16>;
+
+/// A share, a margin, a score: 1/65536.
+using Ratio = Fixed<std::int32_t, 16>;
+
 /// A sine, a cosine, a component of a unit vector: 2^-30, from -2 to just below 2.
 using Unit = Fixed<std::int32_t, 30>;
 

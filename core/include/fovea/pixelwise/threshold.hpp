@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Thresholds: from grey to binary, 255 where a pixel belongs and 0 elsewhere. Book sec. 2.4, 2.8.1.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/status.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/image/pixel.hpp>
+#include <fovea/simd/isa.hpp>
+#include <fovea/simd/lanes.hpp>
+#include <fovea/simd/lines.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+inline namespace FOVEA_ISA {
+
+/// 255 where a pixel is at least level, else 0.
+///
+/// Shapes   src and dst equal, 1x1 or larger
+/// Overlap  dst may be src
+/// Errors   empty_image, size_mismatch
+/// Source   book sec. 2.4; the toolkit's ThresholdBinarize(level)
+inline Status threshold(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst);
+
+/// 255 where a pixel is below level, else 0: the exact complement of threshold(). All else as there.
+///
+/// Source  as above; the toolkit's inverse also took pixels at level itself, so that both forms claimed them
+inline Status threshold_inverse(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst);
+
+/// 255 where low <= pixel <= high, else 0. All else as threshold().
+///
+/// Errors  also bad_argument if low is above high
+inline Status threshold_range(ImageView<const Gray8> src, Gray8 low, Gray8 high, ImageView<Gray8> dst);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace kernels {
+
+/// dst[x] = op(src[x]) for one row; dst may be src.
+template <class Operation>
+void point_row(const Gray8* src, int width, Operation op, Gray8* dst) {
+    simd::for_each_vector(width, [&](int x, int count) {
+        if (count == simd::lanes)
+            op(simd::Bytes::load(src + x)).store(dst + x);
+        else
+            op(simd::Bytes::load(src + x, count)).store(dst + x, count);
+    });
+}
+
+template <class Operation>
+Status point_frame(ImageView<const Gray8> src, Operation op, ImageView<Gray8> dst) {
+    if (src.empty()) return Status::empty_image;
+    if (dst.size() != src.size()) return Status::size_mismatch;
+    for (int y = 0; y < src.height(); ++y) point_row(src.row(y), src.width(), op, dst.row(y));
+    return Status::ok;
+}
+
+/// threshold() of one row, for rows that come one at a time.
+inline void threshold_row(const Gray8* src, int width, Gray8 level, Gray8* dst) {
+    const simd::Bytes limit = simd::Bytes::all(level);
+    point_row(
+        src, width, [=](simd::Bytes pixels) { return at_least(pixels, limit); }, dst);
+}
+
+/// threshold_inverse() of one row.
+inline void threshold_inverse_row(const Gray8* src, int width, Gray8 level, Gray8* dst) {
+    const simd::Bytes limit = simd::Bytes::all(level);
+    point_row(
+        src, width, [=](simd::Bytes pixels) { return ~at_least(pixels, limit); }, dst);
+}
+
+}  // namespace kernels
+
+inline Status threshold(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
+    const simd::Bytes limit = simd::Bytes::all(level);
+    return kernels::point_frame(
+        src, [=](simd::Bytes pixels) { return at_least(pixels, limit); }, dst);
+}
+
+inline Status threshold_inverse(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
+    const simd::Bytes limit = simd::Bytes::all(level);
+    return kernels::point_frame(
+        src, [=](simd::Bytes pixels) { return ~at_least(pixels, limit); }, dst);
+}
+
+inline Status threshold_range(ImageView<const Gray8> src, Gray8 low, Gray8 high, ImageView<Gray8> dst) {
+    if (src.empty()) return Status::empty_image;
+    if (dst.size() != src.size()) return Status::size_mismatch;
+    if (low > high) return Status::bad_argument;
+    const simd::Bytes first = simd::Bytes::all(low);
+    const simd::Bytes last = simd::Bytes::all(high);
+    return kernels::point_frame(
+        src, [=](simd::Bytes pixels) { return at_least(pixels, first) & at_least(last, pixels); }, dst);
+}
+
+}  // namespace FOVEA_ISA
+}  // namespace fovea

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+//
+// Connected components of a binary image with their holes and moments, found row by row from runs. Book sec.
+// 2.8.3.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/arena.hpp>
+#include <fovea/base/list.hpp>
+#include <fovea/base/order.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/number/integer.hpp>
+#include <fovea/segment/runs.hpp>
+#include <fovea/statistics/moments.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// Which neighbours hold together. The ground holds together by the other of the two.
+enum class Connectivity : std::uint8_t {
+    four,   ///< neighbours that share a side
+    eight,  ///< corners too
+};
+
+enum class BorderRegions : std::uint8_t {
+    keep,  ///< list regions that touch the border of the image
+    drop,  ///< leave them out: a part of them may be outside
+};
+
+struct ComponentOptions {
+    Connectivity connectivity = Connectivity::eight;
+    BorderRegions at_border = BorderRegions::keep;
+    std::int64_t area_min = 1;         ///< pixels; smaller regions are dirt
+    std::int64_t area_max = 67092481;  ///< pixels; all of the largest image
+    std::int64_t hole_area_min = 1;    ///< pixels; smaller holes are dirt
+};
+
+/// A connected set of non-zero pixels.
+struct Region {
+    Moments moments;             ///< of its pixels, without its holes
+    Rectangle box;               ///< the smallest upright rectangle around it
+    Point first;                 ///< its first pixel, row by row
+    bool at_border = false;      ///< it touches the border of the image
+    int holes = 0;               ///< its holes of at least hole_area_min
+    std::int64_t hole_area = 0;  ///< pixels in them
+    int number = 0;              ///< its place in the list
+};
+
+/// A connected set of zero pixels that a region surrounds.
+struct Hole {
+    Moments moments;
+    Rectangle box;
+    Point first;     ///< its first pixel, row by row
+    int region = 0;  ///< place of the surrounding region in its list
+};
+
+/// Scratch bytes for images of this width. With fewer labels than the default, for chips, a restless image
+/// may run out of them: then the answer is scratch_too_small.
+constexpr std::int64_t connected_components_scratch(int width, int labels);
+constexpr std::int64_t connected_components_scratch(int width) {
+    return connected_components_scratch(width, 2 * width + 2);
+}
+
+/// Finds the components of an image whose rows come one after another.
+///
+/// Every open region and hole has a label, which the next one may use when it is closed: the memory depends
+/// on the width of the image alone.
+///
+/// Shapes   rows of width pixels, any number up to max_moment_side; zero is ground, all else belongs
+/// Order    regions and holes by their first pixel, row by row
+/// Scratch  connected_components_scratch() bytes, in use until finish()
+/// Errors   of add_row() and finish(): image_too_large above max_moment_side; bad_argument for area limits
+///          that are negative or crossed; scratch_too_small when labels run out, with both lists empty;
+///          capacity_exceeded when a list is full: it holds the largest, the earlier ones of equals
+/// Source   book sec. 2.8.3; runs and union-find after Rosenfeld and Pfaltz, "Sequential Operations in
+/// Digital
+///          Picture Processing", JACM 13(4), 1966
+class ConnectedComponents {
+public:
+    ConnectedComponents(int width, const ComponentOptions& options, Span<std::uint8_t> scratch,
+                        ListView<Region> regions, ListView<Hole> holes);
+
+    Status add_row(const std::uint8_t* row);
+    /// Closes what is open and orders the lists. Nothing may be added afterwards.
+    Status finish();
+
+private:
+    friend constexpr std::int64_t connected_components_scratch(int width, int labels);
+
+    using LabelIndex = RunLabel;
+    static constexpr LabelIndex none = no_label;
+    /// What a hole's region number says before finish(): nothing any more, or the label of an open region.
+    static constexpr int dropped = -1;
+    static constexpr int owned_by(LabelIndex label) { return -2 - label; }
+
+    struct Label {
+        Moments moments;
+        Point first;
+        std::int16_t left = 0, right = 0, bottom = 0;
+        std::int16_t seen_row = -1;  ///< the last row it has a run in
+        LabelIndex link = none;      ///< itself, or the label it was merged into, or the next free one
+        LabelIndex outer = none;     ///< of ground: the region on its left
+        std::uint16_t holes = 0;
+        std::int64_t hole_area = 0;
+        bool used = false;
+        bool is_region = false;
+        bool at_border = false;
+    };
+    bool label_run(int index, int& above_from);
+    LabelIndex new_label(bool is_region, Point first);
+    LabelIndex find(LabelIndex label);
+    LabelIndex merge(LabelIndex a, LabelIndex b);
+    void add_to_label(LabelIndex label, int first, int end);
+    void settle_row();
+    void close_labels();
+    void close_region(LabelIndex label);
+    void close_hole(const Label& hole);
+    void free_label(LabelIndex label);
+    void order_lists();
+    Status fail(Status status);
+
+    int width_;
+    int y_ = 0;
+    ComponentOptions options_;
+    RunRow above_;
+    RunRow here_;
+    Span<Label> labels_;
+    LabelIndex free_ = none;
+    ListView<Region> regions_;
+    ListView<Hole> holes_;
+    Status status_ = Status::ok;  ///< what stopped the work
+    bool overflow_ = false;
+};
+
+/// The same for a whole image.
+///
+/// Shapes  binary 1x1 up to max_moment_side squared
+/// Errors  also empty_image; after an error other than capacity_exceeded the lists are as before or empty
+inline Status connected_components(ImageView<const std::uint8_t> binary, const ComponentOptions& options,
+                                   Span<std::uint8_t> scratch, ListView<Region> regions,
+                                   ListView<Hole> holes);
+
+// ---- Implementation ---------------------------------------------------------------
+
+constexpr std::int64_t connected_components_scratch(int width, int labels) {
+    return 2 * arena_bytes<Run>(std::int64_t{width} + 1) + arena_bytes<ConnectedComponents::Label>(labels);
+}
+
+inline ConnectedComponents::ConnectedComponents(int width, const ComponentOptions& options,
+                                                Span<std::uint8_t> scratch, ListView<Region> regions,
+                                                ListView<Hole> holes)
+    : width_(width), options_(options), regions_(regions), holes_(holes) {
+    if (width <= 0) {
+        status_ = Status::empty_image;
+    } else if (width > max_moment_side) {
+        status_ = Status::image_too_large;
+    } else if (options.area_min < 0 || options.area_min > options.area_max || options.hole_area_min < 0) {
+        status_ = Status::bad_argument;
+    } else if (scratch.size() < connected_components_scratch(width, 1)) {
+        status_ = Status::scratch_too_small;
+    } else {
+        Arena arena(scratch);
+        above_ = RunRow(arena.take<Run>(width + 1));
+        here_ = RunRow(arena.take<Run>(width + 1));
+        const auto room = (arena.rest().size() - static_cast<std::ptrdiff_t>(alignof(Label)) + 1) /
+                          static_cast<std::ptrdiff_t>(sizeof(Label));
+        labels_ = arena.take<Label>(minimum<std::ptrdiff_t>(room, 2 * width + 2));
+        for (std::ptrdiff_t i = labels_.size() - 1; i >= 0; --i) free_label(static_cast<LabelIndex>(i));
+        regions_.clear();
+        holes_.clear();
+    }
+}
+
+inline Status ConnectedComponents::fail(Status status) {
+    status_ = status;
+    regions_.clear();
+    holes_.clear();
+    return status;
+}
+
+inline Status ConnectedComponents::add_row(const std::uint8_t* row) {
+    if (status_ != Status::ok) return status_;
+    if (y_ >= max_moment_side) return fail(Status::image_too_large);
+    if (here_.split(row, width_) != Status::ok) return fail(Status::scratch_too_small);
+    int above_from = 0;
+    for (int i = 0; i < here_.count(); ++i)
+        if (!label_run(i, above_from)) return fail(Status::scratch_too_small);
+    settle_row();
+    close_labels();
+    swap_values(above_, here_);
+    ++y_;
+    return Status::ok;
+}
+
+/// Gives a run the label of the runs above that it touches, merging them, or a new one.
+inline bool ConnectedComponents::label_run(int index, int& above_from) {
+    Run& run = here_[index];
+    const int first = run.first;
+    const int end = here_.end(index);
+    const bool region = here_.is_region(index);
+    const int reach = region == (options_.connectivity == Connectivity::eight) ? 1 : 0;
+    while (above_from < above_.count() && above_.end(above_from) + 1 <= first) ++above_from;
+    for (int k = above_from; k < above_.count() && above_[k].first < end + reach; ++k) {
+        if (above_.is_region(k) != region || above_.end(k) + reach <= first) continue;
+        const LabelIndex touched = find(above_[k].label);
+        run.label = run.label == none ? touched : merge(run.label, touched);
+    }
+    if (run.label == none) run.label = new_label(region, {first, y_});
+    if (run.label == none) return false;
+    add_to_label(run.label, first, end);
+    return true;
+}
+
+inline ConnectedComponents::LabelIndex ConnectedComponents::new_label(bool is_region, Point first) {
+    const LabelIndex label = free_;
+    if (label == none) return none;
+    free_ = labels_[label].link;
+    Label fresh;
+    fresh.link = label;
+    fresh.used = true;
+    fresh.is_region = is_region;
+    fresh.first = first;
+    fresh.left = fresh.right = static_cast<std::int16_t>(first.x);
+    labels_[label] = fresh;
+    return label;
+}
+
+inline ConnectedComponents::LabelIndex ConnectedComponents::find(LabelIndex label) {
+    while (labels_[label].link != label) {
+        labels_[label].link = labels_[labels_[label].link].link;
+        label = labels_[label].link;
+    }
+    return label;
+}
+
+/// Merges b into a or a into b: the one that began first stays.
+inline ConnectedComponents::LabelIndex ConnectedComponents::merge(LabelIndex a, LabelIndex b) {
+    if (a == b) return a;
+    const Point p = labels_[a].first;
+    const Point q = labels_[b].first;
+    if (q.y < p.y || (q.y == p.y && q.x < p.x)) swap_values(a, b);
+    Label& kept = labels_[a];
+    Label& gone = labels_[b];
+    gone.link = a;
+    kept.moments.add(gone.moments);
+    kept.left = minimum(kept.left, gone.left);
+    kept.right = maximum(kept.right, gone.right);
+    kept.bottom = maximum(kept.bottom, gone.bottom);
+    kept.at_border = kept.at_border || gone.at_border;
+    kept.hole_area += gone.hole_area;
+    kept.holes = static_cast<std::uint16_t>(kept.holes + gone.holes);
+    if (gone.holes > 0)
+        for (Hole& hole : holes_)
+            if (hole.region == owned_by(b)) hole.region = owned_by(a);
+    return a;
+}
+
+inline void ConnectedComponents::add_to_label(LabelIndex index, int first, int end) {
+    Label& label = labels_[index];
+    label.left = minimum(label.left, static_cast<std::int16_t>(first));
+    label.right = maximum(label.right, static_cast<std::int16_t>(end - 1));
+    label.bottom = static_cast<std::int16_t>(y_);
+    label.at_border = label.at_border || y_ == 0 || first == 0 || end == width_;
+    // Ground at the border is never a hole, so nobody asks for its moments.
+    if (label.is_region || !label.at_border) label.moments.add_run(first, end, y_);
+}
+
+/// Makes the labels of this row final and tells every piece of ground which region is on its left: at its
+/// leftmost run that is the region around it, if it is a hole.
+inline void ConnectedComponents::settle_row() {
+    for (int i = 0; i < here_.count(); ++i) {
+        Run& run = here_[i];
+        run.label = find(run.label);
+        Label& label = labels_[run.label];
+        if (label.seen_row == y_) continue;
+        label.seen_row = static_cast<std::int16_t>(y_);
+        if (!label.is_region && i > 0) label.outer = here_[i - 1].label;
+    }
+}
+
+/// Lists what has no run in this row, then frees those labels and the ones that were merged.
+inline void ConnectedComponents::close_labels() {
+    for (int i = 0; i < above_.count(); ++i) {
+        const LabelIndex index = above_[i].label;
+        Label& label = labels_[index];
+        if (label.link != index || label.seen_row == y_ || label.bottom < 0) continue;
+        if (label.is_region)
+            close_region(index);
+        else if (!label.at_border && label.moments.area() >= options_.hole_area_min)
+            close_hole(label);
+        label.bottom = -1;
+    }
+    for (int i = 0; i < above_.count(); ++i) {
+        const LabelIndex index = above_[i].label;
+        const Label& label = labels_[index];
+        if (label.used && (label.link != index || label.seen_row != y_)) free_label(index);
+    }
+}
+
+inline void ConnectedComponents::free_label(LabelIndex label) {
+    labels_[label].used = false;
+    labels_[label].link = free_;
+    free_ = label;
+}
+
+inline void ConnectedComponents::close_hole(const Label& hole) {
+    const LabelIndex around = find(hole.outer);
+    const Rectangle box{hole.left, hole.first.y, hole.right - hole.left + 1, hole.bottom - hole.first.y + 1};
+    const Hole entry{hole.moments, box, hole.first, owned_by(around)};
+    Label& region = labels_[around];
+    ++region.holes;
+    region.hole_area += hole.moments.area();
+    if (holes_.push(entry) == Status::ok) return;
+    overflow_ = true;
+    Hole* smallest = nullptr;
+    for (Hole& other : holes_)
+        if (smallest == nullptr || other.moments.area() < smallest->moments.area()) smallest = &other;
+    if (smallest != nullptr && smallest->moments.area() < entry.moments.area()) *smallest = entry;
+}
+
+inline void ConnectedComponents::close_region(LabelIndex index) {
+    const Label& label = labels_[index];
+    const std::int64_t area = label.moments.area();
+    bool listed = area >= options_.area_min && area <= options_.area_max &&
+                  !(label.at_border && options_.at_border == BorderRegions::drop);
+    int place = regions_.size();
+    if (listed && regions_.full()) {
+        overflow_ = true;
+        place = 0;
+        for (int i = 1; i < regions_.size(); ++i)
+            if (regions_[i].moments.area() < regions_[place].moments.area()) place = i;
+        listed = !regions_.empty() && regions_[place].moments.area() < area;
+        if (listed)
+            for (Hole& hole : holes_)
+                if (hole.region == place) hole.region = dropped;
+    }
+    if (listed) {
+        Region region;
+        region.moments = label.moments;
+        region.box = {label.left, label.first.y, label.right - label.left + 1,
+                      label.bottom - label.first.y + 1};
+        region.first = label.first;
+        region.at_border = label.at_border;
+        region.holes = label.holes;
+        region.hole_area = label.hole_area;
+        region.number = place;
+        if (place == regions_.size())
+            static_cast<void>(regions_.push(region));
+        else
+            regions_[place] = region;
+    }
+    if (label.holes > 0)
+        for (Hole& hole : holes_)
+            if (hole.region == owned_by(index)) hole.region = listed ? place : dropped;
+}
+
+/// Drops the holes of regions that are not listed and puts both lists in order.
+inline void ConnectedComponents::order_lists() {
+    const auto before = [](Point a, Point b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
+    int kept = 0;
+    for (const Hole& hole : holes_)
+        if (hole.region != dropped) holes_[kept++] = hole;
+    holes_.shrink(kept);
+    sort(regions_.span(), [&](const Region& a, const Region& b) { return before(a.first, b.first); });
+    for (Hole& hole : holes_) {
+        int place = 0;
+        while (regions_[place].number != hole.region) ++place;
+        hole.region = place;
+    }
+    for (int i = 0; i < regions_.size(); ++i) regions_[i].number = i;
+    sort(holes_.span(), [&](const Hole& a, const Hole& b) { return before(a.first, b.first); });
+}
+
+inline Status ConnectedComponents::finish() {
+    if (status_ != Status::ok) return status_;
+    if (y_ == 0) return fail(Status::empty_image);
+    for (int i = 0; i < above_.count(); ++i) labels_[above_[i].label].at_border = true;
+    close_labels();
+    order_lists();
+    status_ = overflow_ ? Status::capacity_exceeded : Status::ok;
+    return status_;
+}
+
+inline Status connected_components(ImageView<const std::uint8_t> binary, const ComponentOptions& options,
+                                   Span<std::uint8_t> scratch, ListView<Region> regions,
+                                   ListView<Hole> holes) {
+    if (binary.empty()) return Status::empty_image;
+    if (binary.height() > max_moment_side) return Status::image_too_large;
+    ConnectedComponents components(binary.width(), options, scratch, regions, holes);
+    for (int y = 0; y < binary.height(); ++y)
+        if (Status s = components.add_row(binary.row(y)); s != Status::ok) return s;
+    return components.finish();
+}
+
+}  // namespace fovea

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// Histogram of an 8-bit image, and the thresholds that follow from it: quantiles and Otsu's. Book sec. 2.5.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/image/pixel.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// How often each grey level occurs. An accumulator: it takes rows in any number of calls.
+///
+/// Units   counts of pixels; at most 2^32 - 1 in all, so every image up to 65535 x 65535 fits
+/// Source  book sec. 2.5.1
+class Histogram {
+public:
+    static constexpr int levels = 256;
+
+    /// Adds the pixels of a row.
+    constexpr void add_row(const Gray8* row, int width) {
+        for (int x = 0; x < width; ++x) ++counts_[row[x]];
+    }
+    constexpr std::uint32_t operator[](int level) const {
+        FOVEA_ASSERT(level >= 0 && level < levels);
+        return counts_[level];
+    }
+    constexpr std::uint32_t total() const {
+        std::uint32_t sum = 0;
+        for (const std::uint32_t count : counts_) sum += count;
+        return sum;
+    }
+    constexpr void clear() { *this = Histogram(); }
+
+private:
+    std::uint32_t counts_[levels]{};
+};
+
+/// The histogram of a whole image.
+///
+/// Shapes  src 1x1 or larger
+/// Errors  empty_image, with histogram untouched
+/// Source  book sec. 2.5.1
+constexpr Status histogram_of(ImageView<const Gray8> src, Histogram& histogram);
+
+/// A share of all pixels: share / 65536.
+inline constexpr std::uint32_t whole_share = 65536;
+
+/// The smallest grey level such that at least share / 65536 of all pixels are not brighter.
+///
+/// Errors  empty_image without a pixel, bad_argument for a share above whole_share
+/// Source  book sec. 2.5.3
+constexpr Result<Gray8> quantile(const Histogram& histogram, std::uint32_t share);
+
+/// The level for threshold() that splits the pixels into the two classes whose means differ most, weighed by
+/// their sizes: the dark class is below it.
+///
+/// Rounding  where several levels are equally good, as in an empty gap between two classes, their middle,
+///           rounded down
+/// Errors    empty_image without a pixel, degenerate if all pixels have one level
+/// Source    Otsu, "A Threshold Selection Method from Gray-Level Histograms", IEEE Trans. SMC 9(1), 1979, eq.
+///           14 and 18; Otsu's k is one less. The variances are compared as square roots of 31 bits; of more
+///           than 2^26 pixels the counts are halved until they fit
+constexpr Result<Gray8> otsu(const Histogram& histogram);
+
+// ---- Implementation ---------------------------------------------------------------
+
+constexpr Status histogram_of(ImageView<const Gray8> src, Histogram& histogram) {
+    if (src.empty()) return Status::empty_image;
+    histogram.clear();
+    for (int y = 0; y < src.height(); ++y) histogram.add_row(src.row(y), src.width());
+    return Status::ok;
+}
+
+constexpr Result<Gray8> quantile(const Histogram& histogram, std::uint32_t share) {
+    const std::uint64_t total = histogram.total();
+    if (total == 0) return Status::empty_image;
+    if (share > whole_share) return Status::bad_argument;
+    std::uint64_t below = 0;
+    for (int level = 0; level < Histogram::levels; ++level) {
+        below += histogram[level];
+        if (below > 0 && below * whole_share >= share * total) return static_cast<Gray8>(level);
+    }
+    return Gray8{255};
+}
+
+constexpr Result<Gray8> otsu(const Histogram& histogram) {
+    const std::uint32_t pixels = histogram.total();
+    if (pixels == 0) return Status::empty_image;
+    const int drop = maximum(6 - leading_zeros(pixels), 0);
+    const int length = 32 - leading_zeros(pixels >> drop);
+
+    std::int64_t total = 0;
+    std::int64_t total_sum = 0;
+    for (int level = 0; level < Histogram::levels; ++level) {
+        total += histogram[level] >> drop;
+        total_sum += static_cast<std::int64_t>(histogram[level] >> drop) * level;
+    }
+
+    // The between-class variance is d^2 / (dark * bright) with d = dark_sum * bright - bright_sum * dark; its
+    // root |d| / sqrt(dark * bright) orders alike. With totals below 2^length, |d| < 2^(2 length + 6) and
+    // dark * bright <= 2^(2 length - 2): raised by these shifts they fill 63 and 60 bits, and the root 33.
+    const int raise_d = 57 - 2 * length;
+    const int raise_spread = 62 - 2 * length;
+    std::int64_t dark = 0;
+    std::int64_t dark_sum = 0;
+    std::uint64_t best = 0;
+    int first = 0;
+    int last = 0;
+    for (int level = 1; level < Histogram::levels; ++level) {
+        dark += histogram[level - 1] >> drop;
+        dark_sum += static_cast<std::int64_t>(histogram[level - 1] >> drop) * (level - 1);
+        const std::int64_t bright = total - dark;
+        if (dark == 0 || bright == 0) continue;
+        const std::int64_t d = dark_sum * bright - (total_sum - dark_sum) * dark;
+        const std::uint64_t spread = static_cast<std::uint64_t>(dark * bright) << raise_spread;
+        const std::uint64_t root = (magnitude(d) << raise_d) / isqrt(spread);
+        if (root > best) {
+            best = root;
+            first = level;
+            last = level;
+        } else if (root == best && last == level - 1) {
+            last = level;
+        }
+    }
+    if (best == 0) return Status::degenerate;
+    return static_cast<Gray8>((first + last) / 2);
+}
+
+}  // namespace fovea
