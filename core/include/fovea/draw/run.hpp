@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// Points and runs: what all drawing is made of, and the rules that all of it keeps.
+//
+// Drawing writes one colour into pixels of an image and reads none. Lying outside is not an error: a shape is
+// clipped pixel by pixel, so an image shows exactly what a larger one would show in its place. Nothing is
+// blended, and a shape drawn twice is the shape.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// How far from (0, 0) the ends and corners of lines and polygons may lie on either axis, so that their
+/// products stay below 2^63. Far beyond any image: what a fit predicts for a place out of sight can be drawn.
+inline constexpr int max_draw_coordinate = 1 << 30;
+
+/// Whether a line may end here.
+constexpr bool drawable(std::int64_t x, std::int64_t y);
+constexpr bool drawable(Point p) { return drawable(p.x, p.y); }
+
+/// One pixel.
+///
+/// Shapes  any image; any place, shown if it is inside
+/// Errors  empty_image
+/// Source  own
+template <class Pixel>
+Status draw_point(ImageView<Pixel> image, Point place, NonDeduced<Pixel> colour);
+
+/// The pixels left..right of row y, both included, as far as they are inside; none if right is below left.
+///
+/// Shapes  any image, an empty one too
+/// Errors  none
+/// Source  the common step of every filled shape
+template <class Pixel>
+void fill_run(ImageView<Pixel> image, std::int64_t y, std::int64_t left, std::int64_t right,
+              NonDeduced<Pixel> colour);
+
+// ---- Implementation ---------------------------------------------------------------
+
+constexpr bool drawable(std::int64_t x, std::int64_t y) {
+    return x >= -max_draw_coordinate && x <= max_draw_coordinate && y >= -max_draw_coordinate &&
+           y <= max_draw_coordinate;
+}
+
+template <class Pixel>
+Status draw_point(ImageView<Pixel> image, Point place, NonDeduced<Pixel> colour) {
+    if (image.empty()) return Status::empty_image;
+    if (image.contains(place)) image(place.x, place.y) = colour;
+    return Status::ok;
+}
+
+template <class Pixel>
+void fill_run(ImageView<Pixel> image, std::int64_t y, std::int64_t left, std::int64_t right,
+              NonDeduced<Pixel> colour) {
+    if (y < 0 || y >= image.height()) return;
+    const auto first = static_cast<int>(clamp<std::int64_t>(left, 0, image.width()));
+    const auto last = static_cast<int>(clamp<std::int64_t>(right, -1, image.width() - 1));
+    Pixel* row = image.row(static_cast<int>(y));
+    for (int x = first; x <= last; ++x) row[x] = colour;
+}
+
+}  // namespace fovea
