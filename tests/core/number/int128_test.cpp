@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <fovea/base/random.hpp>
 #include <fovea/number/int128.hpp>
 
@@ -36,6 +38,8 @@ TEST(Int128, MultipliesAddsAndShiftsAsTheCompilerDoes) {
         ASSERT_EQ(native(product + Int128(c)), expected + c);
         ASSERT_EQ(native(product - Int128(c)), expected - c);
         ASSERT_EQ(native(-product), -expected);
+        const std::int64_t small = c >> 40;
+        ASSERT_EQ(native((product >> 24) * small), (expected >> 24) * small);
         ASSERT_EQ(native(product >> shift), expected >> shift);
         ASSERT_EQ(native(product << shift), static_cast<Native>(static_cast<Unsigned>(expected) << shift));
         ASSERT_EQ(product < Int128(c), expected < c);
@@ -46,6 +50,23 @@ TEST(Int128, MultipliesAddsAndShiftsAsTheCompilerDoes) {
 TEST(Int128, ProductTakesTheMostNegativeNumber) {
     EXPECT_EQ(native(Int128::product(INT64_MIN, INT64_MIN)), static_cast<Native>(1) << 126);
     EXPECT_EQ(native(Int128::product(INT64_MIN, 1)), static_cast<Native>(INT64_MIN));
+}
+
+TEST(Hypotenuse, IsTheLengthRoundedDown) {
+    EXPECT_EQ(hypotenuse(3, -4), 5);
+    EXPECT_EQ(hypotenuse(0, 0), 0);
+    EXPECT_EQ(hypotenuse(1, 1), 1);
+    EXPECT_EQ(hypotenuse(-(std::int64_t{1} << 61), 0), std::int64_t{1} << 61);
+    Random random(23);
+    for (int i = 0; i < 100000; ++i) {
+        const std::int64_t x = any(random) >> 2;
+        const std::int64_t y = any(random) >> 2;
+        const long double length =
+            std::sqrt(static_cast<long double>(x) * x + static_cast<long double>(y) * y);
+        const long double found = hypotenuse(x, y);
+        ASSERT_LE(found, length);
+        ASSERT_GE(found, length - 1 - length / (1 << 30)) << x << " " << y;
+    }
 }
 
 TEST(RoundDivide, RoundsToTheNearestWithTiesTowardPlusInfinity) {

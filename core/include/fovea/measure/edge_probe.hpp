@@ -36,7 +36,7 @@ struct Edge {
     Unit share;          ///< of the way from `from` to `to`, 0 to 1
     GrayLevel strength;  ///< grey levels from before to behind, of an ideally sharp edge that is as steep
                          ///< after the probe's own smoothing: positive where it gets brighter
-    SquarePixels blur;  ///< variance of the blur of the image across the edge, 0..64 px^2
+    SquarePixels blur;   ///< variance of the blur of the image across the edge, 0..64 px^2
 };
 
 inline constexpr int max_probe_lines = 255;

@@ -41,6 +41,12 @@ public:
     }
     friend constexpr Int128 operator-(Int128 a) { return Int128(~a.high_, ~a.low_) + Int128(0, 1); }
     friend constexpr Int128 operator-(Int128 a, Int128 b) { return a + -b; }
+    friend constexpr Int128 operator*(Int128 a, std::int64_t b) {
+        const Int128 size = a.negative() ? -a : a;
+        Int128 result = product_of(size.low_, magnitude(b));
+        result.high_ += size.high_ * magnitude(b);
+        return a.negative() != (b < 0) ? -result : result;
+    }
     constexpr Int128& operator+=(Int128 b) { return *this = *this + b; }
     constexpr Int128& operator-=(Int128 b) { return *this = *this - b; }
     /// Toward minus infinity; bits 0..127.
@@ -68,6 +74,7 @@ public:
 
 private:
     constexpr Int128(std::uint64_t high, std::uint64_t low) : high_(high), low_(low) {}
+    static constexpr Int128 product_of(std::uint64_t x, std::uint64_t y);
     friend constexpr std::int64_t round_divide(Int128 value, Int128 divisor);
 
     std::uint64_t high_ = 0;
@@ -86,17 +93,19 @@ constexpr std::int64_t multiply_divide(std::int64_t a, std::int64_t b, std::int6
 
 // ---- Implementation ---------------------------------------------------------------
 
-constexpr Int128 Int128::product(std::int64_t a, std::int64_t b) {
-    const std::uint64_t x = magnitude(a);
-    const std::uint64_t y = magnitude(b);
+constexpr Int128 Int128::product_of(std::uint64_t x, std::uint64_t y) {
     const std::uint64_t x_low = x & 0xffffffffu;
     const std::uint64_t y_low = y & 0xffffffffu;
     const std::uint64_t bottom = x_low * y_low;
     // At most (2^32-1)^2 + 2^32-1 < 2^64, and the same once more for the second middle product.
     const std::uint64_t middle = (x >> 32) * y_low + (bottom >> 32);
     const std::uint64_t second = x_low * (y >> 32) + (middle & 0xffffffffu);
-    const Int128 size((x >> 32) * (y >> 32) + (middle >> 32) + (second >> 32),
-                      second << 32 | (bottom & 0xffffffffu));
+    return Int128((x >> 32) * (y >> 32) + (middle >> 32) + (second >> 32),
+                  second << 32 | (bottom & 0xffffffffu));
+}
+
+constexpr Int128 Int128::product(std::int64_t a, std::int64_t b) {
+    const Int128 size = product_of(magnitude(a), magnitude(b));
     return (a < 0) != (b < 0) ? -size : size;
 }
 

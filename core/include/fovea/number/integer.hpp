@@ -104,6 +104,16 @@ constexpr std::uint32_t isqrt(std::uint64_t value) {
     return static_cast<std::uint32_t>(root);
 }
 
+/// The length of the vector (x, y), rounded down; to a relative 2^-30 where a side needs more than 31 bits.
+/// The result must fit: sides below 2^62.
+constexpr std::int64_t hypotenuse(std::int64_t x, std::int64_t y) {
+    const std::uint64_t a = magnitude(x);
+    const std::uint64_t b = magnitude(y);
+    const int drop = maximum(33 - leading_zeros(a | b), 0);
+    const std::uint64_t square = (a >> drop) * (a >> drop) + (b >> drop) * (b >> drop);
+    return static_cast<std::int64_t>(std::uint64_t{isqrt(square)} << drop);
+}
+
 /// The high 32 bits of a 64-bit product, rounded down.
 constexpr std::int32_t multiply_high(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::int64_t>(a) * b >> 32);
