@@ -23,8 +23,8 @@ struct PictureInfo {
     std::int64_t scratch_bytes = 0;
 };
 
-/// A brightness sample 0..most as a pixel: scaled to 0..255 for Gray8, to 0..65535 for Gray16, and the same in
-/// three channels for Rgb888. most is 1..65535; larger samples count as most.
+/// A brightness sample 0..most as a pixel: scaled to 0..255 for Gray8, to 0..65535 for Gray16, and the same
+/// in three channels for Rgb888. most is 1..65535; larger samples count as most.
 ///
 /// Rounding  nearest, ties up
 template <class Pixel>

@@ -4,8 +4,8 @@
 // own.
 //
 // The subset: [table] and [[array of tables]] with bare names; bare keys; basic strings, integers, decimals,
-// true / false, and one-line arrays of these; comments. Every file it accepts is valid TOML, but for what only a schema
-// can see: a name that comes twice.
+// true / false, and one-line arrays of these; comments. Every file it accepts is valid TOML, but for what
+// only a schema can see: a name that comes twice.
 #pragma once
 
 #include <cstdint>

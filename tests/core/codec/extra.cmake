@@ -1,0 +1,11 @@
+# libjpeg and libpng are oracles of the decoders' tests; tests that need one say so when it is absent.
+find_package(JPEG)
+if(JPEG_FOUND)
+  target_link_libraries(test_core_codec PRIVATE JPEG::JPEG)
+  target_compile_definitions(test_core_codec PRIVATE FOVEA_HAVE_LIBJPEG)
+endif()
+find_package(PNG)
+if(PNG_FOUND)
+  target_link_libraries(test_core_codec PRIVATE PNG::PNG)
+  target_compile_definitions(test_core_codec PRIVATE FOVEA_HAVE_LIBPNG)
+endif()
