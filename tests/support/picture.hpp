@@ -28,8 +28,11 @@ inline std::filesystem::path data_folder() {
     return std::filesystem::path(FOVEA_SOURCE_DIR) / ".." / "shared" / "data";
 }
 
-/// The pictures of Debian's package opencv-doc.
-inline std::filesystem::path opencv_doc_folder() { return "/usr/share/doc/opencv-doc/examples/data"; }
+/// The pictures of Debian's package opencv-doc: $FOVEA_OPENCV_DOC, or where the package puts them.
+inline std::filesystem::path opencv_doc_folder() {
+    if (const char* named = std::getenv("FOVEA_OPENCV_DOC")) return named;
+    return "/usr/share/doc/opencv-doc/examples/data";
+}
 
 }  // namespace fovea::test
 

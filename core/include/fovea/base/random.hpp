@@ -38,9 +38,11 @@ public:
         return draw % bound;
     }
 
-    /// A number low..high, both included.
+    /// A number low..high, both included; not all of the 2^32 numbers there are.
     constexpr int between(int low, int high) {
-        return low + static_cast<int>(below(static_cast<std::uint32_t>(high - low) + 1));
+        // Unsigned, because high - low may exceed an int.
+        const std::uint32_t first = static_cast<std::uint32_t>(low);
+        return static_cast<int>(first + below(static_cast<std::uint32_t>(high) - first + 1));
     }
 
 private:

@@ -141,7 +141,8 @@ inline bool probe_fits(Size size, const EdgeProbe& probe) {
     if (magnitude(probe.across.x.raw()) > magnitude(reach) ||
         magnitude(probe.across.y.raw()) > magnitude(reach))
         return false;
-    for (const FinePoint end : {probe.from, probe.to}) {
+    const FinePoint ends[] = {probe.from, probe.to};
+    for (const FinePoint end : ends) {
         if (!can_sample(size, end)) return false;
         const FinePoint shift = line_offset(probe, 0);
         // The lines lie between the two outermost ones, and the image is convex.

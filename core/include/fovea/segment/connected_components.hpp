@@ -115,10 +115,10 @@ private:
     LabelIndex new_label(bool is_region, Point first);
     LabelIndex find(LabelIndex label);
     LabelIndex merge(LabelIndex a, LabelIndex b);
-    void add_to_label(LabelIndex label, int first, int end);
+    void add_to_label(LabelIndex index, int first, int end);
     void settle_row();
     void close_labels();
-    void close_region(LabelIndex label);
+    void close_region(LabelIndex index);
     void close_hole(const Label& hole);
     void free_label(LabelIndex label);
     void order_lists();

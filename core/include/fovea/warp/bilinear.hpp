@@ -40,8 +40,10 @@ constexpr bool can_sample(Size size, FinePoint place) {
 }
 
 constexpr FinePoint nearest_sample(Size size, FinePoint place) {
-    return {FinePixel::from_raw(clamp(place.x.raw(), 0, FinePixel::from_int(size.width - 1).raw())),
-            FinePixel::from_raw(clamp(place.y.raw(), 0, FinePixel::from_int(size.height - 1).raw()))};
+    return {
+        FinePixel::from_raw(clamp<std::int32_t>(place.x.raw(), 0, FinePixel::from_int(size.width - 1).raw())),
+        FinePixel::from_raw(
+            clamp<std::int32_t>(place.y.raw(), 0, FinePixel::from_int(size.height - 1).raw()))};
 }
 
 inline GrayLevel sample_bilinear_unchecked(ImageView<const Gray8> src, FinePoint place) {

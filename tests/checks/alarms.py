@@ -1,0 +1,302 @@
+#!/usr/bin/env python3
+"""Every check must fail where it should, with the right words: each is given a small tree or object with a fault
+planted in it, and once the same without the fault.
+
+usage: alarms.py [host|target]     which compilers are there
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
+CHECKS = PROJECT / "tests/checks"
+SPDX = "// SPDX-License-Identifier: MIT\n"
+HEAD = SPDX + "#pragma once\n"
+
+alarms = []
+
+
+def alarm(function):
+    """An alarm takes an empty folder and answers (what, command, words expected or None for silence) of each trial."""
+    alarms.append(function)
+    return function
+
+
+def write(folder, files):
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    return folder
+
+
+def copy_of_project(folder):
+    for name in ("core", "hal", "ports", "apps", "tests"):
+        shutil.copytree(PROJECT / name, folder / name)
+    for name in ("CMakeLists.txt", "CMakePresets.json", ".clang-tidy", ".clang-format"):
+        shutil.copy(PROJECT / name, folder)
+    return folder
+
+
+def replace(path, old, new):
+    text = path.read_text()
+    if old not in text:
+        sys.exit(f"alarms: nothing to break in {path}: {old}")
+    path.write_text(text.replace(old, new))
+
+
+# ---- The tree -----------------------------------------------------------------------------
+
+TREE = {
+    "core/layers.txt": "# order\nbase\nnumber\nimage\n",
+    "core/include/fovea/base/a.hpp": HEAD + "#include <cstdint>\n",
+    "core/include/fovea/number/n.hpp": HEAD + "#include <fovea/base/a.hpp>\n",
+    "core/include/fovea/image/b.hpp": HEAD + "#include <fovea/base/a.hpp>\n",
+    "hal/include/fovea/hal/h.hpp": HEAD + "#include <fovea/image/b.hpp>\n",
+    "ports/linux/include/fovea/linux/p.hpp": HEAD + "#include <vector>\n\n#include <fovea/hal/h.hpp>\n",
+    "apps/fovea/main.cpp": SPDX + "#include <fovea/linux/p.hpp>\n",
+    "tests/core/base/a_test.cpp": SPDX + "#include <fovea/base/a.hpp>\n",
+}
+BASE = "core/include/fovea/base/a.hpp"
+
+
+@alarm
+def layers(folder):
+    faults = [
+        ("an include against the layers", {BASE: HEAD + "#include <fovea/image/b.hpp>\n"}, "base lies below image"),
+        ("core includes hal", {BASE: HEAD + "#include <fovea/hal/h.hpp>\n"}, "core must not include hal"),
+        ("hal includes a port", {"hal/include/fovea/hal/h.hpp": HEAD + "#include <fovea/linux/p.hpp>\n"},
+         "hal must not include ports"),
+        ("a port includes an app", {"ports/linux/include/fovea/linux/p.hpp": HEAD + "#include <fovea/main.cpp>\n"},
+         "ports must not include apps"),
+        ("hal sees numbers", {"hal/include/fovea/hal/h.hpp": HEAD + "#include <fovea/number/n.hpp>\n"}, "hal sees only"),
+        ("a cycle", {BASE: HEAD + "#include <fovea/base/c.hpp>\n",
+                     "core/include/fovea/base/c.hpp": HEAD + "#include <fovea/base/a.hpp>\n"}, "include cycle: a.hpp -> c.hpp"),
+        ("a way up", {"tests/t.cpp": SPDX + '#include "../core/include/fovea/base/a.hpp"\n'}, "by way of ../"),
+        ("no pragma once", {BASE: SPDX}, "needs one #pragma once"),
+        ("no licence", {BASE: "#pragma once\n"}, "SPDX"),
+        ("a name in capitals", {"core/include/fovea/base/BoxFilter.hpp": HEAD}, "is not snake_case"),
+        ("a long header", {BASE: HEAD + "\n" * 399}, "401 lines"),
+        ("a heap header", {BASE: HEAD + "#include <vector>\n"}, "forbidden header in the core: <vector>"),
+        ("an intrinsics header outside simd", {BASE: HEAD + "#include <arm_acle.h>\n"}, "forbidden header in the core"),
+        ("quotes", {BASE: HEAD + '#include "b.hpp"\n'}, "the core includes with <>"),
+        ("a folder nobody listed", {"core/include/fovea/misc/m.hpp": HEAD}, "not in core/layers.txt"),
+        ("a header that is not there", {BASE: HEAD + "#include <fovea/base/gone.hpp>\n"}, "no such header"),
+    ]
+    for number, (what, files, words) in enumerate([("a good tree", {}, None), *faults]):
+        yield what, [CHECKS / "layers.py", write(folder / str(number), {**TREE, **files})], words
+
+
+@alarm
+def hygiene(folder):
+    faults = [("a good tree", "see docs/, <core/include> and ../shared/data\n", None),
+              ("a machine path", "cd /ro" + "ot/fovea\n", "a path of one machine"),
+              ("a registry", "see https://pypi" + ".org/simple\n", "a package registry"),
+              ("a promise", "// TO" + "DO: later\n", "work put off"),
+              ("a conflict", "<<<<<<" + "< HEAD\n", "a conflict left over")]
+    for number, (what, text, words) in enumerate(faults):
+        yield what, [CHECKS / "hygiene.py", write(folder / str(number), {"README.md": text})], words
+
+
+@alarm
+def layout(folder):
+    for what, text, words in [("good", "int f();\n", None), ("bad", "int  f( );\n", "should be clang-formatted")]:
+        yield what, [CHECKS / "format", write(folder / what, {**TREE, BASE: HEAD + "\n" + text})], words
+
+
+@alarm
+def tidy(folder):
+    faults = [("good names", "namespace fovea { class Box { int size_ = 0; public: int size() const { return size_; } }; }", None),
+              ("a type in lower case", "struct box {};", "invalid case style for struct 'box'"),
+              ("a function in camel case", "void boxFilter();", "invalid case style for function"),
+              ("a constant with k", "inline constexpr int kSize = 3;", "invalid case style for"),
+              ("a private member without _", "class Box { int size = 0; };", "invalid case style for private member"),
+              ("a template parameter", "template <int fraction_bits> struct Fixed {};", "invalid case style for"),
+              ("a macro of nobody", "#define MAX_SIZE 3", "invalid case style for macro"),
+              ("a copy in a loop", "struct Big { int a[99]; Big(const Big&); };\nint sum(const Big (&all)[3]) { int s = 0; "
+               "for (const Big b : all) s += b.a[0]; return s; }", "performance-for-range-copy"),
+              ("a branch twice", "int f(int a) { if (a > 0) return 1; else return 1; }", "bugprone-branch-clone")]
+    for number, (what, text, words) in enumerate(faults):
+        tree = write(folder / str(number), {"core/include/fovea/base/a.hpp": HEAD + text + "\n"})
+        yield what, [CHECKS / "tidy.py", "--root", tree, "--cache", tree / "cache"], words
+
+
+@alarm
+def poison(folder):
+    faults = [("integers", "int f(int a) { return a + 1; }", None), ("float", "float f(); };", "poison"),
+              ("double", "int f() { return static_cast<int>(double{1}); }", "poison"),
+              ("new", "T* f() { return new T; }", "poison"), ("malloc", "void* f() { return malloc(1); }", "poison"),
+              ("throw", "void f() { throw T(); }", "poison"), ("virtual", "virtual void f();", "poison"),
+              ("thread_local", "static thread_local int i;", "poison"), ("goto", "void f() { goto a; a:; }", "poison")]
+    for compiler in ("g++", "clang++"):
+        for what, text, words in faults:
+            body = HEAD + "template <class T>\nstruct NeverInstantiated {\n" + text + "\n};\n"
+            tree = write(folder / (compiler + what), {"core/include/fovea/base/a.hpp": body})
+            yield f"{what}, {compiler}", [CHECKS / "poison.py", "--root", tree, compiler], words
+
+
+@alarm
+def self_containment(folder):
+    """The build itself is the check: a header that leans on what others include."""
+    for what, text, words in [("good", "#include <cstdint>\ninline std::uint8_t f() { return 0; }\n", None),
+                              ("bad", "inline std::uint8_t f() { return 0; }\n", "does not name a type")]:
+        tree = copy_of_project(folder / what)
+        shutil.rmtree(tree / "core/include")
+        write(tree, {BASE: HEAD + text})
+        yield what, ["sh", "-c", f"cmake --preset host -S {tree} -DCMAKE_CXX_COMPILER=g++ > /dev/null 2>&1; "
+                                 f"cmake --build {tree}/build/host --target target_objects"], words
+
+
+@alarm
+def consumers(folder):
+    def broken(name, file, old, new):
+        tree = copy_of_project(folder / name)
+        replace(tree / file, old, new)
+        return [CHECKS / "consumers", tree, tree / "build"]
+
+    yield "a prefix that cannot move", broken("a", "core/cmake/fovea.pc.in", "${pcfiledir}/@pc_to_prefix@",
+                                              "@CMAKE_INSTALL_PREFIX@"), "pkg_config, build FAILED"
+    yield "tests inside another project", broken("b", "CMakeLists.txt", '" ${PROJECT_IS_TOP_LEVEL}', '" ON'), \
+        "builds more than the headers, FAILED"
+    yield "a header C++20 refuses", broken("c", "core/include/fovea/number/integer.hpp", "#pragma once",
+                                           "#pragma once\ninline int requires = 0;"), "find_package_moved, build FAILED"
+    yield "an older version", broken("d", "CMakeLists.txt", "VERSION 0.1.0", "VERSION 0.0.9"), "find_package, configure FAILED"
+
+
+# ---- Runs ---------------------------------------------------------------------------------
+
+@alarm
+def skips(folder):
+    def junit(name, status):
+        return write(folder, {name: f'<testsuite><testcase name="Detector.FindsThePart" status="{status}"/></testsuite>'}) / name
+
+    write(folder, {"none.xml": "<testsuite/>", "expected": "Detector.*   a picture\n", "nothing_expected": "# none\n"})
+    here, gone = f"FOVEA_TEST_DATA={folder}", f"FOVEA_TEST_DATA={folder}/gone"
+
+    def trial(data, expected, report):
+        return ["env", data, CHECKS / "skips.py", "--expected", folder / expected, report]
+
+    yield "a test that ran", trial(gone, "expected", junit("ran.xml", "run")), None
+    yield "an expected skip", trial(gone, "expected", junit("skip.xml", "notrun")), None
+    yield "an unexpected skip", trial(gone, "nothing_expected", junit("other.xml", "notrun")), "must not be: Detector"
+    yield "a skip although the pictures are here", trial(here, "expected", junit("here.xml", "notrun")), "must not be: Detector"
+    yield "a disabled test", trial(gone, "nothing_expected", junit("off.xml", "disabled")), "must not be: Detector"
+    yield "no tests", trial(gone, "expected", folder / "none.xml"), "no tests were run"
+
+
+@alarm
+def run(folder):
+    """tests/run must not lose the failure of a step, or take a word it does not know."""
+    tree = copy_of_project(folder / "tree")
+    write(tree, {BASE: HEAD + "#include <vector>\n"})
+    yield "a step that fails", [tree / "tests/run", "host"], "step layers FAILED"
+    yield "an unknown part", [tree / "tests/run", "boat"], "no part 'boat'"
+
+
+@alarm
+def sanitizers(folder):
+    presets = json.loads((PROJECT / "CMakePresets.json").read_text())["configurePresets"]
+    flags = next(p for p in presets if p["name"] == "sanitize")["cacheVariables"]
+    options = f"{flags['CMAKE_CXX_FLAGS']} {flags['CMAKE_CXX_FLAGS_DEBUG']} -I{PROJECT}/core/include"
+    faults = [("nothing", "return 0;", None), ("overflow", "return 2147483647 + argc > 0;", "signed integer overflow"),
+              ("heap", "return (new int[3])[argc + 2];", "heap-buffer-overflow"),
+              ("assertion", "FOVEA_ASSERT(argc > 1); return 0;", "")]
+    for what, text, words in faults:
+        source = write(folder, {f"{what}.cpp": f"#include <fovea/base/assert.hpp>\nint main(int argc, char**) {{ {text} }}\n"})
+        yield what, ["sh", "-c", f"cd {source} && clang++ {options} {what}.cpp -o {what} && ./{what}"], words
+
+
+@alarm
+def fuzz(folder):
+    text = """#include <cstddef>
+              #include <cstdint>
+              extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+                  if (FAULT && size > 2 && data[0] == 'F' && data[1] == 'V') __builtin_trap();
+                  return 0;
+              }"""
+    for fault, words in [("0", None), ("1", "fuzz_planted FAILED")]:
+        build = write(folder / fault, {"planted.cpp": text})
+        yield f"fault {fault}", ["sh", "-c", f"cd {build} && clang++ -fsanitize=fuzzer -DFAULT={fault} planted.cpp "
+                                             f"-o fuzz_planted && {CHECKS}/fuzz.py . 20000"], words
+    yield "no programs", [CHECKS / "fuzz.py", write(folder / "empty", {"a": ""})], "no programs"
+
+
+# ---- Object files -------------------------------------------------------------------------
+
+# What each must be called; with a float unit the instruction is found, without one the helper.
+OBJECT_FAULTS = [
+    ("integers", "int f(int a) { return a / 3; }", None),
+    ("float", "int f(int a) { return int(float(a) * 1.5f); }", "float "),
+    ("double", "int f(int a) { return int(double(a) / 3.0); }", "float "),
+    ("malloc", "#include <cstdlib>\nvoid* f(unsigned a) { return std::malloc(a); }", "heap: malloc"),
+    ("new", "int* f(int a) { return new int[unsigned(a)]; }", "heap: operator new[]"),
+    ("throw", "void f(int a) { if (a) throw 3; }", "exception or type information: __cxa_throw"),
+    ("guard", "struct S { int v; S(int); };\nint f(int a) { static S s(a); return s.v; }", "guard of a static"),
+    ("virtual", "struct B { virtual int f() const; };\nint B::f() const { return 1; }", "exception or type information: vtable for B"),
+    ("printf", "#include <cstdio>\nvoid f(int a) { std::printf(\"%d\", a); }", "input or output: "),
+    ("outside", "int unknown(int);\nint f(int a) { return unknown(a); }", "unknown outside symbol: unknown(int)"),
+    ("bss", "int counter;\nint f() { return ++counter; }", "mutable data: counter"),
+    ("data", "int f() { static int counter = 7; return ++counter; }", "mutable data: f()::counter"),
+]
+
+
+def objects(folder, compilers):
+    for number, compiler in enumerate(compilers):
+        for what, text, words in OBJECT_FAULTS:
+            source = write(folder, {f"{number}{what}.cpp": text})
+            exceptions = "" if what == "throw" else "-fno-exceptions"
+            yield f"{what}, {compiler}", [
+                "sh", "-c", f"cd {source} && {compiler} -std=c++17 -Os -c {number}{what}.cpp {exceptions} -fno-unwind-tables "
+                            f"-fno-asynchronous-unwind-tables && {CHECKS}/binary.py {number}{what}.o"], words
+    yield "no objects", [CHECKS / "binary.py", write(folder / "empty", {"a": ""})], "no object files"
+
+
+@alarm
+def binary(folder):
+    yield from objects(folder, ["g++", "clang++"])
+
+
+def target_binary(folder):
+    chip = "arm-none-eabi-g++ -mthumb -mcpu="
+    yield from objects(folder, [chip + "cortex-m0", chip + "cortex-m4", chip + "cortex-m4 -mfloat-abi=hard",
+                                chip + "cortex-m55 -mfloat-abi=hard", "aarch64-linux-gnu-g++", "arm-linux-gnueabihf-g++",
+                                "riscv64-linux-gnu-g++"])
+
+
+# ---- All of them --------------------------------------------------------------------------
+
+def ring(function, folder):
+    """The lines of one alarm: what rang, and what did not."""
+    rang, silent = [], []
+    for what, command, words in function(folder):
+        result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                errors="replace")
+        name = f"{function.__name__}: {what}"
+        if words is None and result.returncode != 0:
+            silent.append(f"{name}: must pass, but\n{result.stdout}")
+        elif words is not None and (result.returncode == 0 or words not in result.stdout):
+            silent.append(f"{name}: must fail with '{words}', but (exit {result.returncode})\n{result.stdout}")
+        else:
+            rang.append(f"{name}: " + ("silent, as it should be" if words is None else "rang"))
+    return rang, silent
+
+
+def main():
+    chosen = [target_binary] if sys.argv[1:] == ["target"] else alarms
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
+        folders = [Path(folder) / function.__name__ for function in chosen]
+        for place in folders:
+            place.mkdir()
+        results = list(pool.map(ring, chosen, folders))
+    rang = [line for result in results for line in result[0]]
+    silent = [line for result in results for line in result[1]]
+    print("\n".join(rang + silent))
+    print(f"alarms: {len(rang)} trials as they should be, {len(silent)} not")
+    return 1 if silent else 0
+
+
+sys.exit(main())

@@ -1,0 +1,3 @@
+# Cortex-M0 and M0+: plain 32-bit words, no division instruction, no float unit.
+set(fovea_processor -mcpu=cortex-m0 -mfloat-abi=soft)
+include(${CMAKE_CURRENT_LIST_DIR}/arm_none_eabi.cmake)

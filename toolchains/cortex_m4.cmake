@@ -1,0 +1,3 @@
+# Cortex-M4: the DSP instructions, four pixels a word. The float unit some have is not used.
+set(fovea_processor -mcpu=cortex-m4 -mfloat-abi=soft)
+include(${CMAKE_CURRENT_LIST_DIR}/arm_none_eabi.cmake)

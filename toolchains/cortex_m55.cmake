@@ -1,0 +1,4 @@
+# Cortex-M55 with Helium, its 16-byte vectors, in integers alone: +nofp leaves the integer half of Helium there.
+# The ABI must be softfp (arguments in core registers, as with soft): with soft GCC 12 switches Helium off too.
+set(fovea_processor -mcpu=cortex-m55+nofp -mfloat-abi=softfp)
+include(${CMAKE_CURRENT_LIST_DIR}/arm_none_eabi.cmake)
