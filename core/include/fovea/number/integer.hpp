@@ -104,7 +104,7 @@ constexpr std::uint32_t isqrt(std::uint64_t value) {
     return static_cast<std::uint32_t>(root);
 }
 
-/// The length of the vector (x, y), rounded down; to a relative 2^-30 where a side needs more than 31 bits.
+/// The length of the vector (x, y), rounded down; to a relative 2^-28 where a side needs more than 31 bits.
 /// The result must fit: sides below 2^62.
 constexpr std::int64_t hypotenuse(std::int64_t x, std::int64_t y) {
     const std::uint64_t a = magnitude(x);
