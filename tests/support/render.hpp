@@ -42,7 +42,7 @@ struct Scene {
 /// points a pixel, which are jittered once per pixel so that edges along the axes are not favoured.
 inline GuardedImage<Gray8> render(Size size, const Scene& scene, Random& random,
                                   const std::function<bool(double, double)>& inside) {
-    constexpr int over = 8;
+    constexpr int over = 16;
     const int margin = static_cast<int>(std::ceil(4 * scene.blur)) + 1;
     const int w = size.width + 2 * margin;
     const int h = size.height + 2 * margin;

@@ -40,6 +40,9 @@ public:
         data_[(*size_)++] = value;
         return Status::ok;
     }
+    /// Makes room for one more element, whose value is what stood there before; nullptr when the list is
+    /// full. For elements that are too large to pass through push().
+    constexpr T* append() const { return full() ? nullptr : data_ + (*size_)++; }
     constexpr Span<T> span() const { return {data_, *size_}; }
 
 private:

@@ -10,6 +10,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/decision/tolerance.hpp>
+#include <fovea/measure/half_turn.hpp>
 #include <fovea/number/decimal.hpp>
 
 namespace fovea {
@@ -24,7 +25,13 @@ struct Scale {
     std::int64_t y_per_pixel = 1000000;
 };
 
-/// The finest and the coarsest scale, in millionths of a unit per pixel: 10 nm to 100 mm.
+/// The height of a pixel in widths of one. Both scales must be positive.
+constexpr PixelAspect aspect_of(const Scale& scale) {
+    return PixelAspect::from_ratio(scale.y_per_pixel, scale.x_per_pixel);
+}
+
+/// The finest and the coarsest scale, in millionths of a unit per pixel: 10 nm to 100 mm. One may be four
+/// times the other.
 inline constexpr std::int64_t min_units_per_pixel = 10;
 inline constexpr std::int64_t max_units_per_pixel = 100000000;
 
@@ -40,12 +47,17 @@ enum class OrientationRule : std::uint8_t {
 struct LocateRule {
     bool dark_part = true;  ///< dark part on bright ground (back light), else bright on dark
     ThresholdRule threshold = ThresholdRule::otsu;
-    std::uint8_t level = 128;            ///< of the fixed rule
-    std::int64_t area_min = 100;         ///< pixels
+    std::uint8_t level = 128;            ///< of the fixed rule: the least grey level that counts as bright
+    std::int64_t dark_quantile = 20000;  ///< of the quantile rule, in millionths of all pixels: the level is
+    std::int64_t bright_quantile = 980000;  ///< the middle between the grey levels of these two
+    int opening = 1;              ///< side of the square that clears specks and hairs first; odd, 1 none
+    std::int64_t area_min = 100;  ///< pixels
     std::int64_t area_max = 1073741824;  ///< pixels
     std::int64_t hole_area_min = 20;     ///< pixels; smaller holes are dirt
     bool at_border = false;              ///< measure parts that touch the border of the image too
     OrientationRule orientation = OrientationRule::full;
+    Asymmetry
+        ends;  ///< of the full rule: the taught part's, which tells its ends apart; zero if none is taught
 };
 
 enum class FeatureKind : std::uint8_t {
@@ -70,6 +82,7 @@ inline constexpr std::int64_t max_part_coordinate = 100000000000;
 
 struct Feature {
     static constexpr int max_name = 31;
+    static constexpr int max_probes = 128;
 
     char name[max_name + 1] = {};
     FeatureKind kind = FeatureKind::width;
@@ -80,10 +93,12 @@ struct Feature {
     PartPoint centre;         ///< diameter, hole_diameter, position: the place
     std::int64_t radius = 0;  ///< diameter: where the edge is expected, in millionths of the unit
     std::int64_t search =
-        0;                 ///< how far from the expected edge or place is looked, in millionths of the unit
-    int lines = 15;        ///< distance, width: parallel lines that are averaged, one pixel apart
-    int probes = 32;       ///< diameter, hole_diameter, angle: probes along the contour
-    int first_edge = 1;    ///< distance: number of the edge from the start, or from the end when negative
+        0;            ///< how far from the expected edge or place is looked, in millionths of the unit
+    int lines = 15;   ///< distance, width: parallel lines that are averaged, one pixel apart
+    int probes = 48;  ///< diameter, hole_diameter, angle: probes along the contour; 3..max_probes
+    int contrast_min =
+        0;               ///< the least step of an edge in grey levels; 0 is a quarter of that of the outline
+    int first_edge = 1;  ///< distance: number of the edge from the start, or from the end when negative
     int second_edge = -1;  ///< distance: likewise
     Tolerance tolerance;   ///< in the unit; degrees for angle, a number for hole_count
 };

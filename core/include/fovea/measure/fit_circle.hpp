@@ -160,7 +160,7 @@ constexpr Result<CircleStep> solve(const CircleSums& sums) {
     const Int128 determinant = Int128::product(cc, ss) - Int128::product(cs, cs);
     const std::int64_t trace = cc + ss;
     // The smaller eigenvalue must be more than 2^-20 of the larger.
-    if (!(Int128::product(trace, trace) >> 20 < determinant)) return Status::degenerate;
+    if (!((Int128::product(trace, trace) >> 20) < determinant)) return Status::degenerate;
     CircleStep step;
     // 2^-32 * 2^-28 over 2^-56 is 2^-4: 12 bits more give 2^-16. The terms stay below 2^58+39+12.
     step.x = round_divide((Int128::product(ce, ss) - Int128::product(se, cs)) << 12, determinant);

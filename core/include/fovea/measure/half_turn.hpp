@@ -24,6 +24,10 @@ namespace fovea {
 /// the same then.
 struct Asymmetry {
     Ratio sss, sst, stt, ttt;
+
+    friend constexpr bool operator==(const Asymmetry& a, const Asymmetry& b) {
+        return a.sss == b.sss && a.sst == b.sst && a.stt == b.stt && a.ttt == b.ttt;
+    }
 };
 
 /// Rounding  to about 2^-15

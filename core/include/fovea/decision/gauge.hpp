@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+//
+// Gauging: finds the parts in an image, measures every feature of a recipe on each of them and judges. Book
+// ch. 6.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <fovea/base/arena.hpp>
+#include <fovea/base/list.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/decision/locate.hpp>
+#include <fovea/decision/measure_feature.hpp>
+#include <fovea/decision/recipe.hpp>
+#include <fovea/decision/tolerance.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/number/integer.hpp>
+#include <fovea/segment/connected_components.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// What became of one feature of one part. measurement counts only where status is ok.
+struct FeatureResult {
+    Status status = Status::not_found;
+    Verdict verdict = Verdict::unmeasured;
+    Measurement measurement;
+};
+
+/// One part: where it lies, what was measured, and the verdict.
+struct PartResult {
+    PartPose pose;
+    std::int64_t area = 0;  ///< pixels
+    Rectangle box;
+    int holes = 0;
+    Verdict verdict = Verdict::unmeasured;
+    int feature_count = 0;
+    FeatureResult features[Recipe::max_features];
+};
+
+/// Scratch bytes for gauge() with room for so many parts.
+inline std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts);
+
+/// Measures every part in an image.
+///
+/// A part whose orientation is not certain is listed, with its features unmeasured: its probes would stand
+/// anywhere. So is a feature whose probes leave the image or meet no edge. Nothing unmeasured is ever OK.
+///
+/// Shapes   image 1x1 to max_moment_side squared
+/// Order    parts by their first pixel, row by row; features as in the recipe
+/// Scratch  gauge_scratch(), undefined afterwards
+/// Errors   as find_parts(); bad_argument also for a scale out of its range; no part at all is ok with an
+/// empty
+///          list; capacity_exceeded leaves the largest parts in the list, measured
+/// Source   book sec. 6.2
+inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std::uint8_t> scratch,
+                    ListView<PartResult> parts);
+
+/// True if a scale can be used: both positive, within their bounds, and none more than four times the other.
+constexpr bool scale_in_range(const Scale& scale);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+/// Room for holes: a few for each part.
+constexpr int gauge_holes(int parts) { return 16 * parts; }
+
+inline void measure_part(const PartView& view, const Recipe& recipe, Span<std::uint8_t> scratch,
+                         PartResult& part) {
+    part.feature_count = recipe.features.size();
+    part.verdict = part.pose.orientation == Status::ok ? Verdict::ok : Verdict::unmeasured;
+    for (int i = 0; i < recipe.features.size(); ++i) {
+        FeatureResult& result = part.features[i];
+        result = FeatureResult();
+        result.status = part.pose.orientation;
+        if (part.pose.orientation == Status::ok) {
+            const Result<Measurement> measured = measure_feature(view, recipe.features[i], scratch);
+            result.status = measured.status();
+            if (measured) {
+                result.measurement = *measured;
+                result.verdict = judge(measured->value, recipe.features[i].tolerance);
+            }
+        }
+        part.verdict = combine(part.verdict, result.verdict);
+    }
+}
+
+}  // namespace detail
+
+constexpr bool scale_in_range(const Scale& scale) {
+    const auto in_range = [](std::int64_t value) {
+        return value >= min_units_per_pixel && value <= max_units_per_pixel;
+    };
+    return in_range(scale.x_per_pixel) && in_range(scale.y_per_pixel) &&
+           scale.x_per_pixel <= 4 * scale.y_per_pixel && scale.y_per_pixel <= 4 * scale.x_per_pixel;
+}
+
+inline std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts) {
+    return arena_bytes<Region>(parts) + arena_bytes<Hole>(detail::gauge_holes(parts)) +
+           maximum(find_parts_scratch(size, rule), measure_feature_scratch(size));
+}
+
+inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std::uint8_t> scratch,
+                    ListView<PartResult> parts) {
+    if (image.empty()) return Status::empty_image;
+    if (!scale_in_range(recipe.scale)) return Status::bad_argument;
+    const int capacity = parts.capacity();
+    const std::int64_t lists =
+        arena_bytes<Region>(capacity) + arena_bytes<Hole>(detail::gauge_holes(capacity));
+    if (scratch.size() < lists + measure_feature_scratch(image.size())) return Status::scratch_too_small;
+    Arena arena(scratch);
+    const Span<Region> region_room = arena.take<Region>(capacity);
+    const Span<Hole> hole_room = arena.take<Hole>(detail::gauge_holes(capacity));
+    int region_count = 0;
+    int hole_count = 0;
+    const ListView<Region> regions(region_room.data(), capacity, &region_count);
+    const ListView<Hole> holes(hole_room.data(), detail::gauge_holes(capacity), &hole_count);
+
+    Threshold threshold;
+    const Status found = find_parts(image, recipe.locate, arena.rest(), threshold, regions, holes);
+    if (found != Status::ok && found != Status::capacity_exceeded) return found;
+    parts.clear();
+    for (const Region& region : regions) {
+        const Result<CentralMoments> moments =
+            moments_of(image, recipe.locate, threshold.part, region, holes.span());
+        if (!moments) continue;
+        PartResult* part = parts.append();
+        if (part == nullptr) break;  // there is room for every region
+        part->pose = pose_of(*moments, recipe.locate, recipe.scale);
+        part->area = region.moments.area();
+        part->box = region.box;
+        part->holes = region.holes;
+        detail::measure_part(
+            {image, part->pose.frame, &region, holes.span(), recipe.locate, threshold, recipe.scale}, recipe,
+            arena.rest(), *part);
+    }
+    return found;
+}
+
+}  // namespace fovea

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+//
+// Locating parts: which regions of an image are parts, where they are and how they are turned. Book
+// sec. 6.2.1.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/arena.hpp>
+#include <fovea/base/list.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/decision/part_frame.hpp>
+#include <fovea/decision/recipe.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/measure/half_turn.hpp>
+#include <fovea/morphology/morphology.hpp>
+#include <fovea/number/fixed.hpp>
+#include <fovea/number/integer.hpp>
+#include <fovea/pixelwise/threshold.hpp>
+#include <fovea/segment/connected_components.hpp>
+#include <fovea/segment/fine_moments.hpp>
+#include <fovea/segment/level_contour.hpp>
+#include <fovea/statistics/histogram.hpp>
+#include <fovea/statistics/moments.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// How a part lies.
+struct PartPose {
+    PartFrame frame;
+    Status orientation = Status::undecided;  ///< ok, or why frame.angle() means nothing: degenerate without
+                                             ///< an axis, undecided when either end could be the front
+    bool ends_certain = false;               ///< the front was told from the back
+    Ratio margin;                            ///< how clearly, see HalfTurn
+    Ratio elongation;                        ///< how clear the axis is, see Orientation
+};
+
+/// The pose of a region with these moments under the rule of a recipe.
+///
+/// Source  book eq. 6.1-6.8; an axis of less than least_elongation is none
+constexpr PartPose pose_of(const CentralMoments& moments, const LocateRule& rule, const Scale& scale);
+inline constexpr Ratio least_elongation = Ratio::from_ratio(1, 50);
+
+/// What tells part from ground in an image.
+struct Threshold {
+    LevelSet part;       ///< the pixels of parts
+    GrayLevel contrast;  ///< mean brightness at and above the level minus mean below
+};
+
+/// The moments of a part that find_parts() found: from its contour, or from its pixels where the rule opened
+/// the image first and the contour in the image is another.
+///
+/// Errors  as fine_moments()
+inline Result<CentralMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
+                                         const Region& region, Span<const Hole> holes);
+
+/// The threshold that a rule asks for.
+///
+/// Errors  empty_image; degenerate when all pixels are alike or, for the fixed and the quantile rule, one
+/// class
+///         is empty
+inline Result<Threshold> threshold_of(const Histogram& histogram, const LocateRule& rule);
+
+/// Scratch bytes for find_parts(). With fewer, down to about a fifth, it works for images that are calm.
+inline std::int64_t find_parts_scratch(Size size, const LocateRule& rule);
+
+/// Finds the regions that a rule takes for parts, and their holes.
+///
+/// Shapes    image 1x1 to max_moment_side squared
+/// Order     by their first pixel, row by row
+/// Scratch   find_parts_scratch(), undefined afterwards
+/// Errors    empty_image, image_too_large; bad_argument for a rule out of its range; degenerate as
+///           threshold_of(); scratch_too_small and capacity_exceeded as connected_components()
+/// Source    book sec. 6.2.1, with a threshold that follows the light, and an area gate
+inline Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, Span<std::uint8_t> scratch,
+                         Threshold& threshold, ListView<Region> parts, ListView<Hole> holes);
+
+// ---- Implementation ---------------------------------------------------------------
+
+constexpr PartPose pose_of(const CentralMoments& moments, const LocateRule& rule, const Scale& scale) {
+    const CentralMoments square = stretched(moments, aspect_of(scale));
+    PartPose pose;
+    pose.frame = PartFrame(moments.centroid, FineAngle(), scale);
+    const Result<Orientation> axis = orientation(square);
+    if (axis) pose.elongation = axis->elongation;
+    if (rule.orientation == OrientationRule::none) {
+        pose.orientation = Status::ok;
+        return pose;
+    }
+    if (!axis || axis->elongation < least_elongation) {
+        pose.orientation = Status::degenerate;
+        return pose;
+    }
+    pose.frame = PartFrame(moments.centroid, axis->axis, scale);
+    if (rule.orientation == OrientationRule::symmetric) {
+        pose.orientation = Status::ok;
+        return pose;
+    }
+    const Result<Asymmetry> ends = asymmetry(square, axis->axis);
+    if (!ends) return pose;
+    const Result<HalfTurn> turn = rule.ends == Asymmetry{} ? half_turn(*ends) : half_turn(*ends, rule.ends);
+    pose.orientation = turn.status();
+    if (!turn) return pose;
+    pose.ends_certain = true;
+    pose.margin = turn->margin;
+    if (turn->turned) pose.frame = PartFrame(moments.centroid, axis->axis + FineAngle::half_turn(), scale);
+    return pose;
+}
+
+inline Result<Threshold> threshold_of(const Histogram& histogram, const LocateRule& rule) {
+    if (histogram.total() == 0) return Status::empty_image;
+    Threshold result;
+    result.part = {rule.level, rule.dark_part};
+    if (rule.threshold == ThresholdRule::otsu) {
+        const Result<Gray8> level = otsu(histogram);
+        if (!level) return level.status();
+        result.part.level = *level;
+    } else if (rule.threshold == ThresholdRule::quantile) {
+        const auto share = [](std::int64_t millionths) {
+            return static_cast<std::uint32_t>(round_divide(millionths * whole_share, std::int64_t{1000000}));
+        };
+        const Result<Gray8> dark = quantile(histogram, share(rule.dark_quantile));
+        const Result<Gray8> bright = quantile(histogram, share(rule.bright_quantile));
+        if (!dark || !bright) return Status::bad_argument;
+        result.part.level = static_cast<Gray8>((*dark + *bright + 1) / 2);
+    }
+    std::int64_t count[2] = {0, 0};
+    std::int64_t sum[2] = {0, 0};
+    for (int i = 0; i < Histogram::levels; ++i) {
+        const int side = i >= result.part.level ? 1 : 0;
+        count[side] += histogram[i];
+        sum[side] += std::int64_t{histogram[i]} * i;
+    }
+    if (count[0] == 0 || count[1] == 0) return Status::degenerate;
+    result.contrast = GrayLevel::from_ratio(sum[1], count[1]) - GrayLevel::from_ratio(sum[0], count[0]);
+    return result;
+}
+
+inline Result<CentralMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
+                                         const Region& region, Span<const Hole> holes) {
+    if (rule.opening > 1) return central_moments(region.moments);
+    return fine_moments(image, part, region, holes);
+}
+
+inline std::int64_t find_parts_scratch(Size size, const LocateRule& rule) {
+    const std::int64_t opened = rule.opening > 1 ? size.area() + opening_scratch(size) : 0;
+    return arena_bytes<Histogram>(1) + arena_bytes<std::uint8_t>(size.width) + opened +
+           connected_components_scratch(size.width);
+}
+
+namespace detail {
+
+inline bool rule_in_range(const LocateRule& rule) {
+    const auto share = [](std::int64_t millionths) { return millionths >= 0 && millionths <= 1000000; };
+    return rule.opening >= 1 && rule.opening % 2 == 1 && rule.opening <= max_element_side &&
+           share(rule.dark_quantile) && share(rule.bright_quantile);
+}
+
+/// Thresholds rows and feeds them to the components; through a whole binary image where it is opened first.
+inline Status components_of(ImageView<const Gray8> image, const LocateRule& rule, Gray8 level, Arena& arena,
+                            ListView<Region> parts, ListView<Hole> holes) {
+    ComponentOptions options;
+    options.at_border = rule.at_border ? BorderRegions::keep : BorderRegions::drop;
+    options.area_min = rule.area_min;
+    options.area_max = rule.area_max;
+    options.hole_area_min = rule.hole_area_min;
+    const auto classify = rule.dark_part ? kernels::threshold_inverse_row : kernels::threshold_row;
+    if (rule.opening > 1) {
+        const Size size = image.size();
+        const auto pixels = arena.take<std::uint8_t>(static_cast<std::ptrdiff_t>(size.area()));
+        const ImageView<Gray8> binary(pixels.data(), size, size.width);
+        for (int y = 0; y < size.height; ++y) classify(image.row(y), size.width, level, binary.row(y));
+        const auto between = arena.take<std::uint8_t>(static_cast<std::ptrdiff_t>(opening_scratch(size)));
+        if (Status s = opening(binary, {rule.opening, rule.opening}, between, binary); s != Status::ok)
+            return s;
+        return connected_components(binary, options, arena.rest(), parts, holes);
+    }
+    const Span<std::uint8_t> row = arena.take<std::uint8_t>(image.width());
+    ConnectedComponents components(image.width(), options, arena.rest(), parts, holes);
+    for (int y = 0; y < image.height(); ++y) {
+        classify(image.row(y), image.width(), level, row.data());
+        if (Status s = components.add_row(row.data()); s != Status::ok) return s;
+    }
+    return components.finish();
+}
+
+}  // namespace detail
+
+inline Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, Span<std::uint8_t> scratch,
+                         Threshold& threshold, ListView<Region> parts, ListView<Hole> holes) {
+    if (image.empty()) return Status::empty_image;
+    if (image.width() > max_moment_side || image.height() > max_moment_side) return Status::image_too_large;
+    if (!detail::rule_in_range(rule)) return Status::bad_argument;
+    const std::int64_t labels = connected_components_scratch(image.width());
+    if (scratch.size() < find_parts_scratch(image.size(), rule) - labels) return Status::scratch_too_small;
+    Arena arena(scratch);
+    Histogram& histogram = arena.take<Histogram>(1)[0];
+    for (int y = 0; y < image.height(); ++y) histogram.add_row(image.row(y), image.width());
+    const Result<Threshold> chosen = threshold_of(histogram, rule);
+    if (!chosen) return chosen.status();
+    threshold = *chosen;
+    return detail::components_of(image, rule, chosen->part.level, arena, parts, holes);
+}
+
+}  // namespace fovea
