@@ -9,45 +9,80 @@
 #include <type_traits>
 
 #include <fovea/decision/recipe.hpp>
+#include <fovea/morphology/morphology.hpp>
 
 namespace fovea::apps {
 
-enum class KeyType : std::uint8_t { name, choice, decimal, integer, boolean, point };
+enum class KeyType : std::uint8_t { name, choice, decimal, integer, boolean, numbers };
 
-/// A value on its way between text and recipe: millionths for decimals and points, a number from 0 for a
-/// choice.
+/// A value on its way between text and recipe: millionths for decimals and arrays of numbers, a number from 0
+/// for a choice.
 struct KeyValue {
-    std::array<std::int64_t, 2> number{};
+    std::array<std::int64_t, 4> number{};
     std::string text;
 };
 
 /// Bits of the feature kinds a key belongs to.
 constexpr unsigned bit(FeatureKind kind) { return 1u << static_cast<unsigned>(kind); }
+inline constexpr unsigned every_kind = ~0u;
 
 /// One key of a recipe file.
 struct Key {
+    using Load = void (*)(Recipe& recipe, Feature& feature, const KeyValue& value);
+    using Show = KeyValue (*)(const Recipe& recipe, const Feature& feature);
+
     const char* table;  ///< "", "scale", "locate" or "feature"
     const char* name;
     KeyType type;
-    const char* unit;     ///< "" when it has none; "unit" is the recipe's length unit
-    std::int64_t low;     ///< smallest value, in millionths for decimals and points
-    std::int64_t high;    ///< largest value
-    const char* choices;  ///< "a|b|c", in the order of the enumeration
-    unsigned kinds;       ///< of a feature key: the kinds it belongs to
-    bool required;
     const char* text;  ///< one line of help
-    void (*load)(Recipe& recipe, Feature& feature, const KeyValue& value);
-    KeyValue (*show)(const Recipe& recipe, const Feature& feature);
+    Load load;
+    Show show;
+    const char* unit = "";        ///< "" when it has none; "unit" is the recipe's length unit
+    std::int64_t low = 0;         ///< smallest value, in millionths for decimals and arrays
+    std::int64_t high = 0;        ///< largest value
+    const char* choices = "";     ///< "a|b|c", in the order of the enumeration
+    int count = 1;                ///< how many numbers an array has
+    unsigned kinds = every_kind;  ///< of a feature key: the kinds it belongs to
+    bool required = false;
+
+    constexpr Key range(std::int64_t least, std::int64_t most, const char* what = "") const {
+        Key key = *this;
+        key.low = least;
+        key.high = most;
+        key.unit = what;
+        return key;
+    }
+    constexpr Key one_of(const char* words) const {
+        Key key = *this;
+        key.choices = words;
+        return key;
+    }
+    constexpr Key array_of(int numbers) const {
+        Key key = *this;
+        key.count = numbers;
+        return key;
+    }
+    constexpr Key of(unsigned which) const {
+        Key key = *this;
+        key.kinds = which;
+        return key;
+    }
+    constexpr Key needed() const {
+        Key key = *this;
+        key.required = true;
+        return key;
+    }
 };
 
 namespace detail {
 
-inline constexpr std::int64_t unit = 1000000;
 inline constexpr std::int64_t far = max_part_coordinate;
-inline constexpr unsigned every_kind = ~0u;
 inline constexpr unsigned along_a_probe = bit(FeatureKind::distance) | bit(FeatureKind::width);
 inline constexpr unsigned around_a_place =
     bit(FeatureKind::diameter) | bit(FeatureKind::hole_diameter) | bit(FeatureKind::position);
+inline constexpr unsigned along_a_contour =
+    bit(FeatureKind::diameter) | bit(FeatureKind::hole_diameter) | bit(FeatureKind::angle);
+inline constexpr unsigned with_edges = along_a_probe | along_a_contour;
 
 // How a member goes in and out of a recipe. Member pointers keep the table free of code.
 template <auto Part, auto Member>
@@ -57,7 +92,7 @@ void load_recipe(Recipe& recipe, Feature&, const KeyValue& value) {
 }
 template <auto Part, auto Member>
 KeyValue show_recipe(const Recipe& recipe, const Feature&) {
-    return {{static_cast<std::int64_t>((recipe.*Part).*Member), 0}, {}};
+    return {{static_cast<std::int64_t>((recipe.*Part).*Member)}, {}};
 }
 template <auto Member>
 void load_feature(Recipe&, Feature& feature, const KeyValue& value) {
@@ -66,7 +101,7 @@ void load_feature(Recipe&, Feature& feature, const KeyValue& value) {
 }
 template <auto Member>
 KeyValue show_feature(const Recipe&, const Feature& feature) {
-    return {{static_cast<std::int64_t>(feature.*Member), 0}, {}};
+    return {{static_cast<std::int64_t>(feature.*Member)}, {}};
 }
 template <auto Member>
 void load_point(Recipe&, Feature& feature, const KeyValue& value) {
@@ -82,8 +117,19 @@ void load_tolerance(Recipe&, Feature& feature, const KeyValue& value) {
 }
 template <auto Member>
 KeyValue show_tolerance(const Recipe&, const Feature& feature) {
-    return {{(feature.tolerance.*Member).millionths, 0}, {}};
+    return {{(feature.tolerance.*Member).millionths}, {}};
 }
+inline void load_ends(Recipe& recipe, Feature&, const KeyValue& value) {
+    const auto ratio = [](std::int64_t millionths) { return Ratio::from_ratio(millionths, 1000000); };
+    recipe.locate.ends = {ratio(value.number[0]), ratio(value.number[1]), ratio(value.number[2]),
+                          ratio(value.number[3])};
+}
+inline KeyValue show_ends(const Recipe& recipe, const Feature&) {
+    const auto millionths = [](Ratio ratio) { return round_shift(std::int64_t{ratio.raw()} * 1000000, 16); };
+    const Asymmetry& ends = recipe.locate.ends;
+    return {{millionths(ends.sss), millionths(ends.sst), millionths(ends.stt), millionths(ends.ttt)}, {}};
+}
+
 template <std::size_t N>
 void copy_name(char (&name)[N], const std::string& text) {
     for (std::size_t i = 0; i < N; ++i) name[i] = i < text.size() && i + 1 < N ? text[i] : '\0';
@@ -105,94 +151,155 @@ inline const auto& recipe_keys() {
     using R = Recipe;
     using L = LocateRule;
     using F = Feature;
+    using T = Tolerance;
+    constexpr std::int64_t pixels = 67092481;
     static constexpr Key keys[] = {
-        {"", "format", KeyType::integer, "", 1, 1, "", 0, true, "version of this file format",
-         [](Recipe&, Feature&, const KeyValue&) {},
-         [](const Recipe&, const Feature&) {
-             return KeyValue{{1, 0}, {}};
-         }},
-        {"", "name", KeyType::name, "", 0, 0, "", 0, false, "what the part is called",
-         [](Recipe& r, Feature&, const KeyValue& v) { copy_name(r.name, v.text); },
-         [](const Recipe& r, const Feature&) {
-             return KeyValue{{}, text_of(r.name)};
-         }},
+        Key{"", "format", KeyType::integer, "version of this file format",
+            [](Recipe&, Feature&, const KeyValue&) {},
+            [](const Recipe&, const Feature&) {
+                return KeyValue{{1}, {}};
+            }}
+            .range(1, 1)
+            .needed(),
+        Key{"", "name", KeyType::name, "what the part is called",
+            [](Recipe& r, Feature&, const KeyValue& v) { copy_name(r.name, v.text); },
+            [](const Recipe& r, const Feature&) {
+                return KeyValue{{}, text_of(r.name)};
+            }},
 
-        {"scale", "unit", KeyType::choice, "", 0, 0, "px|mm", 0, false, "unit of every length below",
-         load_recipe<&R::scale, &Scale::unit>, show_recipe<&R::scale, &Scale::unit>},
-        {"scale", "per_pixel_x", KeyType::decimal, "unit per px", min_units_per_pixel, max_units_per_pixel,
-         "", 0, false, "length of one pixel along the image's x", load_recipe<&R::scale, &Scale::x_per_pixel>,
-         show_recipe<&R::scale, &Scale::x_per_pixel>},
-        {"scale", "per_pixel_y", KeyType::decimal, "unit per px", min_units_per_pixel, max_units_per_pixel,
-         "", 0, false, "length of one pixel along the image's y", load_recipe<&R::scale, &Scale::y_per_pixel>,
-         show_recipe<&R::scale, &Scale::y_per_pixel>},
+        Key{"scale", "unit", KeyType::choice, "unit of every length below",
+            load_recipe<&R::scale, &Scale::unit>, show_recipe<&R::scale, &Scale::unit>}
+            .one_of("px|mm"),
+        Key{"scale", "per_pixel_x", KeyType::decimal, "length of a pixel along the rows of the image",
+            load_recipe<&R::scale, &Scale::x_per_pixel>, show_recipe<&R::scale, &Scale::x_per_pixel>}
+            .range(min_units_per_pixel, max_units_per_pixel, "unit"),
+        Key{"scale", "per_pixel_y", KeyType::decimal, "length of a pixel down its columns",
+            load_recipe<&R::scale, &Scale::y_per_pixel>, show_recipe<&R::scale, &Scale::y_per_pixel>}
+            .range(min_units_per_pixel, max_units_per_pixel, "unit"),
 
-        {"locate", "part", KeyType::choice, "", 0, 0, "bright|dark", 0, false,
-         "brightness of the part on its ground", load_recipe<&R::locate, &L::dark_part>,
-         show_recipe<&R::locate, &L::dark_part>},
-        {"locate", "threshold", KeyType::choice, "", 0, 0, "fixed|otsu|quantile", 0, false,
-         "how part and ground are told apart", load_recipe<&R::locate, &L::threshold>,
-         show_recipe<&R::locate, &L::threshold>},
-        {"locate", "level", KeyType::integer, "grey level", 1, 255, "", 0, false,
-         "threshold of the rule \"fixed\"", load_recipe<&R::locate, &L::level>,
-         show_recipe<&R::locate, &L::level>},
-        {"locate", "area_min", KeyType::integer, "px", 1, 1073741824, "", 0, false, "smallest area of a part",
-         load_recipe<&R::locate, &L::area_min>, show_recipe<&R::locate, &L::area_min>},
-        {"locate", "area_max", KeyType::integer, "px", 1, 1073741824, "", 0, false, "largest area of a part",
-         load_recipe<&R::locate, &L::area_max>, show_recipe<&R::locate, &L::area_max>},
-        {"locate", "hole_area_min", KeyType::integer, "px", 1, 1073741824, "", 0, false,
-         "smallest area of a hole; what is smaller is dirt", load_recipe<&R::locate, &L::hole_area_min>,
-         show_recipe<&R::locate, &L::hole_area_min>},
-        {"locate", "at_border", KeyType::boolean, "", 0, 1, "", 0, false,
-         "measure parts that touch the border of the image too", load_recipe<&R::locate, &L::at_border>,
-         show_recipe<&R::locate, &L::at_border>},
-        {"locate", "orientation", KeyType::choice, "", 0, 0, "full|symmetric|none", 0, false,
-         "full: axis and which end is which; symmetric: the axis alone; none: the image's directions",
-         load_recipe<&R::locate, &L::orientation>, show_recipe<&R::locate, &L::orientation>},
+        Key{"locate", "part", KeyType::choice, "brightness of the part on its ground",
+            load_recipe<&R::locate, &L::dark_part>, show_recipe<&R::locate, &L::dark_part>}
+            .one_of("bright|dark"),
+        Key{"locate", "threshold", KeyType::choice, "how part and ground are told apart",
+            load_recipe<&R::locate, &L::threshold>, show_recipe<&R::locate, &L::threshold>}
+            .one_of("fixed|otsu|quantile"),
+        Key{"locate", "level", KeyType::integer, "of \"fixed\": the least level that counts as bright",
+            load_recipe<&R::locate, &L::level>, show_recipe<&R::locate, &L::level>}
+            .range(1, 255, "grey level"),
+        Key{"locate", "dark_quantile", KeyType::decimal,
+            "of \"quantile\": the share of pixels darker than dark",
+            load_recipe<&R::locate, &L::dark_quantile>, show_recipe<&R::locate, &L::dark_quantile>}
+            .range(0, 1000000),
+        Key{"locate", "bright_quantile", KeyType::decimal, "of \"quantile\": the share darker than bright",
+            load_recipe<&R::locate, &L::bright_quantile>, show_recipe<&R::locate, &L::bright_quantile>}
+            .range(0, 1000000),
+        Key{"locate", "opening", KeyType::integer,
+            "side of the square that clears hairs and specks; odd, 1 none",
+            load_recipe<&R::locate, &L::opening>, show_recipe<&R::locate, &L::opening>}
+            .range(1, max_element_side, "px"),
+        Key{"locate", "area_min", KeyType::integer, "smallest area of a part",
+            load_recipe<&R::locate, &L::area_min>, show_recipe<&R::locate, &L::area_min>}
+            .range(1, pixels, "px"),
+        Key{"locate", "area_max", KeyType::integer, "largest area of a part",
+            load_recipe<&R::locate, &L::area_max>, show_recipe<&R::locate, &L::area_max>}
+            .range(1, pixels, "px"),
+        Key{"locate", "hole_area_min", KeyType::integer, "smallest area of a hole; what is smaller is dirt",
+            load_recipe<&R::locate, &L::hole_area_min>, show_recipe<&R::locate, &L::hole_area_min>}
+            .range(1, pixels, "px"),
+        Key{"locate", "at_border", KeyType::boolean, "measure parts that touch the border of the image too",
+            load_recipe<&R::locate, &L::at_border>, show_recipe<&R::locate, &L::at_border>},
+        Key{"locate", "orientation", KeyType::choice,
+            "full: axis and ends; symmetric: axis alone; none: as it lies",
+            load_recipe<&R::locate, &L::orientation>, show_recipe<&R::locate, &L::orientation>}
+            .one_of("full|symmetric|none"),
+        Key{"locate", "ends", KeyType::numbers, "third moments that tell the part's ends apart", load_ends,
+            show_ends}
+            .range(-4000000, 4000000)
+            .array_of(4),
 
-        {"feature", "name", KeyType::name, "", 0, 0, "", every_kind, true,
-         "name in the results, unique in the file",
-         [](Recipe&, Feature& f, const KeyValue& v) { copy_name(f.name, v.text); },
-         [](const Recipe&, const Feature& f) {
-             return KeyValue{{}, text_of(f.name)};
-         }},
-        {"feature", "kind", KeyType::choice, "", 0, 0, feature_kind_names, every_kind, true,
-         "what is measured", load_feature<&F::kind>, show_feature<&F::kind>},
-        {"feature", "from", KeyType::point, "unit", -far, far, "", along_a_probe | bit(FeatureKind::angle),
-         true, "start of the probe, or of the first edge of an angle: [x, y] in the frame of the part",
-         load_point<&F::from>, show_point<&F::from>},
-        {"feature", "to", KeyType::point, "unit", -far, far, "", along_a_probe | bit(FeatureKind::angle),
-         true, "end of the probe, or of the first edge", load_point<&F::to>, show_point<&F::to>},
-        {"feature", "second_from", KeyType::point, "unit", -far, far, "", bit(FeatureKind::angle), true,
-         "start of the second edge", load_point<&F::second_from>, show_point<&F::second_from>},
-        {"feature", "second_to", KeyType::point, "unit", -far, far, "", bit(FeatureKind::angle), true,
-         "end of the second edge", load_point<&F::second_to>, show_point<&F::second_to>},
-        {"feature", "centre", KeyType::point, "unit", -far, far, "", around_a_place, true,
-         "expected centre: [x, y] in the frame of the part", load_point<&F::centre>, show_point<&F::centre>},
-        {"feature", "radius", KeyType::decimal, "unit", 1, far, "", bit(FeatureKind::diameter), true,
-         "expected radius", load_feature<&F::radius>, show_feature<&F::radius>},
-        {"feature", "search", KeyType::decimal, "unit", 1, far, "", around_a_place | bit(FeatureKind::angle),
-         true, "how far from the expected edge or place is looked", load_feature<&F::search>,
-         show_feature<&F::search>},
-        {"feature", "lines", KeyType::integer, "", 1, 255, "", along_a_probe, false,
-         "parallel lines, one pixel apart, that are averaged", load_feature<&F::lines>,
-         show_feature<&F::lines>},
-        {"feature", "probes", KeyType::integer, "", 3, 128, "",
-         bit(FeatureKind::diameter) | bit(FeatureKind::hole_diameter) | bit(FeatureKind::angle), false,
-         "probes along the contour", load_feature<&F::probes>, show_feature<&F::probes>},
-        {"feature", "first_edge", KeyType::integer, "", -64, 64, "", bit(FeatureKind::distance), false,
-         "number of the edge along the probe; negative counts from its end", load_feature<&F::first_edge>,
-         show_feature<&F::first_edge>},
-        {"feature", "second_edge", KeyType::integer, "", -64, 64, "", bit(FeatureKind::distance), false,
-         "number of the edge along the probe; negative counts from its end", load_feature<&F::second_edge>,
-         show_feature<&F::second_edge>},
-        {"feature", "nominal", KeyType::decimal, "unit", -far, far, "", every_kind, true,
-         "the value wanted (degrees for an angle, a number for hole_count)",
-         load_tolerance<&Tolerance::nominal>, show_tolerance<&Tolerance::nominal>},
-        {"feature", "minus", KeyType::decimal, "unit", 0, far, "", every_kind, true,
-         "how far below it is still OK", load_tolerance<&Tolerance::minus>,
-         show_tolerance<&Tolerance::minus>},
-        {"feature", "plus", KeyType::decimal, "unit", 0, far, "", every_kind, true,
-         "how far above it is still OK", load_tolerance<&Tolerance::plus>, show_tolerance<&Tolerance::plus>},
+        Key{"feature", "name", KeyType::name, "name in the results, unique in the file",
+            [](Recipe&, Feature& f, const KeyValue& v) { copy_name(f.name, v.text); },
+            [](const Recipe&, const Feature& f) {
+                return KeyValue{{}, text_of(f.name)};
+            }}
+            .needed(),
+        Key{"feature", "kind", KeyType::choice, "what is measured", load_feature<&F::kind>,
+            show_feature<&F::kind>}
+            .one_of(feature_kind_names)
+            .needed(),
+        Key{"feature", "from", KeyType::numbers, "start of the probe, or of the first edge",
+            load_point<&F::from>, show_point<&F::from>}
+            .range(-far, far, "unit")
+            .array_of(2)
+            .of(along_a_probe | bit(FeatureKind::angle))
+            .needed(),
+        Key{"feature", "to", KeyType::numbers, "end of the probe, or of the first edge", load_point<&F::to>,
+            show_point<&F::to>}
+            .range(-far, far, "unit")
+            .array_of(2)
+            .of(along_a_probe | bit(FeatureKind::angle))
+            .needed(),
+        Key{"feature", "second_from", KeyType::numbers, "start of the second edge",
+            load_point<&F::second_from>, show_point<&F::second_from>}
+            .range(-far, far, "unit")
+            .array_of(2)
+            .of(bit(FeatureKind::angle))
+            .needed(),
+        Key{"feature", "second_to", KeyType::numbers, "end of the second edge", load_point<&F::second_to>,
+            show_point<&F::second_to>}
+            .range(-far, far, "unit")
+            .array_of(2)
+            .of(bit(FeatureKind::angle))
+            .needed(),
+        Key{"feature", "centre", KeyType::numbers, "expected centre", load_point<&F::centre>,
+            show_point<&F::centre>}
+            .range(-far, far, "unit")
+            .array_of(2)
+            .of(around_a_place)
+            .needed(),
+        Key{"feature", "radius", KeyType::decimal, "expected radius", load_feature<&F::radius>,
+            show_feature<&F::radius>}
+            .range(1, far, "unit")
+            .of(bit(FeatureKind::diameter))
+            .needed(),
+        Key{"feature", "search", KeyType::decimal, "how far from the expected edge or place is looked",
+            load_feature<&F::search>, show_feature<&F::search>}
+            .range(1, far, "unit")
+            .of(around_a_place | bit(FeatureKind::angle))
+            .needed(),
+        Key{"feature", "lines", KeyType::integer, "parallel lines, a pixel apart, that are averaged",
+            load_feature<&F::lines>, show_feature<&F::lines>}
+            .range(1, max_probe_lines)
+            .of(along_a_probe),
+        Key{"feature", "probes", KeyType::integer, "probes along the contour", load_feature<&F::probes>,
+            show_feature<&F::probes>}
+            .range(3, Feature::max_probes)
+            .of(along_a_contour),
+        Key{"feature", "contrast_min", KeyType::integer,
+            "least step of an edge; 0 is a quarter of the outline's", load_feature<&F::contrast_min>,
+            show_feature<&F::contrast_min>}
+            .range(0, 255, "grey levels")
+            .of(with_edges),
+        Key{"feature", "first_edge", KeyType::integer, "number of the edge from the start; -1 is the last",
+            load_feature<&F::first_edge>, show_feature<&F::first_edge>}
+            .range(-64, 64)
+            .of(bit(FeatureKind::distance)),
+        Key{"feature", "second_edge", KeyType::integer, "number of the edge from the start; -1 is the last",
+            load_feature<&F::second_edge>, show_feature<&F::second_edge>}
+            .range(-64, 64)
+            .of(bit(FeatureKind::distance)),
+        Key{"feature", "nominal", KeyType::decimal, "the value wanted", load_tolerance<&T::nominal>,
+            show_tolerance<&T::nominal>}
+            .range(-far, far, "unit, degrees or a count")
+            .needed(),
+        Key{"feature", "minus", KeyType::decimal, "how far below it is still OK", load_tolerance<&T::minus>,
+            show_tolerance<&T::minus>}
+            .range(0, far)
+            .needed(),
+        Key{"feature", "plus", KeyType::decimal, "how far above it is still OK", load_tolerance<&T::plus>,
+            show_tolerance<&T::plus>}
+            .range(0, far)
+            .needed(),
     };
     return keys;
 }

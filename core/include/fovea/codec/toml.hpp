@@ -261,7 +261,7 @@ constexpr Result<TomlValue> TomlReader::word() {
         return fail("expected a value: a \"string\", a number, true, false or an [array]");
     const Result<Decimal> number = parse_decimal(value.text);
     if (number.status() == Status::out_of_range)
-        return fail("a number with more than six places or beyond a million", value.place,
+        return fail("a number with more than six places or beyond a hundred million", value.place,
                     Status::out_of_range);
     if (!number)
         return fail("expected a value: a \"string\", a number, true, false or an [array]", value.place);

@@ -85,21 +85,6 @@ namespace detail {
 
 inline constexpr int max_probe_edges = 64;
 
-/// A direction and length in the frame of a part.
-constexpr PartPoint operator-(PartPoint a, PartPoint b) { return {a.x - b.x, a.y - b.y}; }
-constexpr PartPoint operator+(PartPoint a, PartPoint b) { return {a.x + b.x, a.y + b.y}; }
-constexpr std::int64_t length_of(PartPoint vector) { return hypotenuse(vector.x, vector.y); }
-/// A quarter turn clockwise from a vector, of the given length. The vector is not zero.
-constexpr PartPoint across(PartPoint vector, std::int64_t length) {
-    const std::int64_t whole = maximum<std::int64_t>(length_of(vector), 1);
-    return {multiply_divide(-vector.y, length, whole), multiply_divide(vector.x, length, whole)};
-}
-/// The point `part` of `whole` steps on the way from a to b.
-constexpr PartPoint between(PartPoint a, PartPoint b, std::int64_t part, std::int64_t whole) {
-    const PartPoint way = b - a;
-    return a + PartPoint{multiply_divide(way.x, part, whole), multiply_divide(way.y, part, whole)};
-}
-
 /// One feature of one part: the probes, the points they find, and what is made of these.
 class FeatureMeter {
 public:
@@ -161,7 +146,8 @@ inline Result<Span<const Edge>> FeatureMeter::probe(PartPoint from, PartPoint to
     const Result<FinePoint> start = part_.frame.to_image(from);
     const Result<FinePoint> end = part_.frame.to_image(to);
     // Parallel lines are as far apart as two columns.
-    const Result<FinePoint> beside = part_.frame.to_image(from + across(to - from, part_.scale.x_per_pixel));
+    const Result<FinePoint> beside =
+        part_.frame.to_image(from + square_to(to - from, part_.scale.x_per_pixel));
     if (!start || !end || !beside) return Status::out_of_range;
     EdgeProbe line{*start, *end, {beside->x - start->x, beside->y - start->y}, lines};
     ListView<Edge> edges(edges_.data(), max_probe_edges, &edge_count_);
@@ -327,9 +313,9 @@ inline Result<Measurement> FeatureMeter::position() {
 inline Result<FineAngle> FeatureMeter::probe_line(PartPoint from, PartPoint to, Measurement& marks) {
     if (feature_.search <= 0) return Status::bad_argument;
     point_count_ = 0;
-    const PartPoint side = across(to - from, feature_.search);
+    const PartPoint side = square_to(to - from, feature_.search);
     for (int i = 0; i < feature_.probes; ++i) {
-        const PartPoint middle = between(from, to, 2 * i + 1, 2 * feature_.probes);
+        const PartPoint middle = point_between(from, to, 2 * i + 1, 2 * feature_.probes);
         const Result<const Edge*> edge = strongest(middle - side, middle + side);
         if (edge.status() == Status::not_found) continue;
         if (!edge) return edge.status();

@@ -19,6 +19,24 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
+constexpr PartPoint operator+(PartPoint a, PartPoint b) { return {a.x + b.x, a.y + b.y}; }
+constexpr PartPoint operator-(PartPoint a, PartPoint b) { return {a.x - b.x, a.y - b.y}; }
+
+/// The length of a vector in the frame of a part; as hypotenuse().
+constexpr std::int64_t length_of(PartPoint vector) { return hypotenuse(vector.x, vector.y); }
+
+/// The vector of that length a quarter turn clockwise from another; zero if the other is.
+constexpr PartPoint square_to(PartPoint vector, std::int64_t length) {
+    const std::int64_t whole = maximum<std::int64_t>(length_of(vector), 1);
+    return {multiply_divide(-vector.y, length, whole), multiply_divide(vector.x, length, whole)};
+}
+
+/// The point `part` of `whole` steps on the way from a to b.
+constexpr PartPoint point_between(PartPoint a, PartPoint b, std::int64_t part, std::int64_t whole) {
+    const PartPoint way = b - a;
+    return a + PartPoint{multiply_divide(way.x, part, whole), multiply_divide(way.y, part, whole)};
+}
+
 /// Where a part lies: its centroid in the image, and the direction of its axis where rows and columns are
 /// equally far apart.
 class PartFrame {

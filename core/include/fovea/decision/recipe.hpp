@@ -50,11 +50,11 @@ struct LocateRule {
     std::uint8_t level = 128;            ///< of the fixed rule: the least grey level that counts as bright
     std::int64_t dark_quantile = 20000;  ///< of the quantile rule, in millionths of all pixels: the level is
     std::int64_t bright_quantile = 980000;  ///< the middle between the grey levels of these two
-    int opening = 1;              ///< side of the square that clears specks and hairs first; odd, 1 none
-    std::int64_t area_min = 100;  ///< pixels
-    std::int64_t area_max = 1073741824;  ///< pixels
-    std::int64_t hole_area_min = 20;     ///< pixels; smaller holes are dirt
-    bool at_border = false;              ///< measure parts that touch the border of the image too
+    int opening = 1;                   ///< side of the square that clears specks and hairs first; odd, 1 none
+    std::int64_t area_min = 100;       ///< pixels
+    std::int64_t area_max = 67092481;  ///< pixels; all of the largest image
+    std::int64_t hole_area_min = 20;   ///< pixels; smaller holes are dirt
+    bool at_border = false;            ///< measure parts that touch the border of the image too
     OrientationRule orientation = OrientationRule::full;
     Asymmetry
         ends;  ///< of the full rule: the taught part's, which tells its ends apart; zero if none is taught

@@ -32,9 +32,9 @@ struct Decimal {
     friend constexpr Decimal operator-(Decimal a) { return {-a.millionths}; }
 };
 
-/// The largest magnitude parse_decimal() accepts: a million whole units, so that sums and products of lengths
-/// in millionths stay far inside 64 bits.
-inline constexpr std::int64_t max_decimal_units = 1000000;
+/// The largest magnitude parse_decimal() accepts: a hundred million whole units, so that sums of lengths in
+/// millionths stay far inside 64 bits.
+inline constexpr std::int64_t max_decimal_units = 100000000;
 
 /// Reads [+-]digits[.digits], all of the text.
 ///

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+//
+// The annotated picture: every part with its frame, its probes, what they found, and the verdicts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <fovea/decision/gauge.hpp>
+#include <fovea/draw/arrow.hpp>
+#include <fovea/draw/cross.hpp>
+#include <fovea/draw/line.hpp>
+#include <fovea/draw/rectangle.hpp>
+#include <fovea/draw/text.hpp>
+
+#include <common/picture_file.hpp>
+#include <gauge/report.hpp>
+
+namespace fovea::apps {
+
+/// Draws results over the image they were measured in. Small images are magnified.
+Picture<Rgb888> explain(const Picture<Gray8>& image, const Recipe& recipe,
+                        const std::vector<PartResult>& parts);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+inline constexpr Rgb888 colour_ok{60, 220, 90};
+inline constexpr Rgb888 colour_bad{255, 70, 60};
+inline constexpr Rgb888 colour_unmeasured{255, 180, 40};
+inline constexpr Rgb888 colour_probe{90, 170, 255};
+inline constexpr Rgb888 colour_frame{255, 220, 70};
+inline constexpr Rgb888 colour_paper{16, 20, 28};
+
+inline Rgb888 colour_of(Verdict verdict) {
+    return verdict == Verdict::ok           ? colour_ok
+           : verdict == Verdict::unmeasured ? colour_unmeasured
+                                            : colour_bad;
+}
+
+/// One picture in the making. Drawing outside is clipped, so nothing here can fail.
+class Explanation {
+public:
+    Explanation(const Picture<Gray8>& image, const Recipe& recipe) : recipe_(recipe) {
+        zoom_ = clamp(640 / maximum(image.size.width, 1), 1, 4);
+        picture_ = Picture<Rgb888>({image.size.width * zoom_, image.size.height * zoom_});
+        const auto from = image.view();
+        const auto to = picture_.view();
+        for (int y = 0; y < to.height(); ++y)
+            for (int x = 0; x < to.width(); ++x) {
+                const Gray8 level = from(x / zoom_, y / zoom_);
+                to(x, y) = {level, level, level};
+            }
+    }
+
+    void add(int index, const PartResult& part) {
+        const Rgb888 colour = colour_of(part.verdict);
+        const Rectangle& box = part.box;
+        draw(draw_rectangle(picture_.view(),
+                            {box.x * zoom_, box.y * zoom_, box.width * zoom_, box.height * zoom_}, colour));
+        const PartFrame& frame = part.pose.frame;
+        const std::int64_t reach = maximum(box.width, box.height) * recipe_.scale.x_per_pixel / 4;
+        if (part.pose.orientation == Status::ok && recipe_.locate.orientation != OrientationRule::none)
+            arrow(frame.to_image({0, 0}), frame.to_image({reach, 0}));
+        draw(draw_cross(picture_.view(), place(frame.origin()), 3 * zoom_, colour_frame));
+        for (int i = 0; i < part.feature_count; ++i) add_feature(part, part.features[i], recipe_.features[i]);
+        label({box.x * zoom_, box.y * zoom_ - 16},
+              "part " + std::to_string(index) + " " +
+                  (part.verdict == Verdict::ok       ? "OK"
+                   : part.verdict == Verdict::not_ok ? "NOT OK"
+                                                     : "NOT JUDGED"),
+              colour);
+    }
+
+    /// Labels come last, so that no line crosses a number.
+    Picture<Rgb888> finish() {
+        for (const Label& each : labels_)
+            draw(draw_label(picture_.view(),
+                            each.box.x >= 0 ? Point{each.box.x, each.box.y} : Point{0, each.box.y},
+                            span_of(each.text), each.colour, colour_paper));
+        return picture_;
+    }
+
+private:
+    struct Label {
+        Rectangle box;
+        std::string text;
+        Rgb888 colour;
+    };
+
+    static void draw(Status) {}
+
+    Point place(FinePoint point) const {
+        const auto scaled = [&](FinePixel value) {
+            // Pixel centres stay centres: (v + 1/2) zoom - 1/2.
+            return FinePixel::from_raw(value.raw() * zoom_ + (zoom_ - 1) * (FinePixel::one / 2)).round();
+        };
+        return {scaled(point.x), scaled(point.y)};
+    }
+    void line(const Result<FinePoint>& from, const Result<FinePoint>& to, Rgb888 colour) {
+        if (from && to) draw(draw_line(picture_.view(), place(*from), place(*to), colour));
+    }
+    void arrow(const Result<FinePoint>& from, const Result<FinePoint>& to) {
+        if (from && to) draw(draw_arrow(picture_.view(), place(*from), place(*to), colour_frame, 6 * zoom_));
+    }
+
+    void add_feature(const PartResult& part, const FeatureResult& result, const Feature& feature) {
+        const PartFrame& frame = part.pose.frame;
+        const Measurement& found = result.measurement;
+        const Rgb888 colour = colour_of(result.verdict);
+        if (part.pose.orientation != Status::ok || feature.kind == FeatureKind::hole_count) return;
+        const bool along = feature.kind == FeatureKind::distance || feature.kind == FeatureKind::width;
+        const bool angle = feature.kind == FeatureKind::angle;
+        if (along || angle) line(frame.to_image(feature.from), frame.to_image(feature.to), colour_probe);
+        if (angle) line(frame.to_image(feature.second_from), frame.to_image(feature.second_to), colour_probe);
+        const PartPoint expected =
+            along || angle ? point_between(feature.from, feature.to, 1, 2) : feature.centre;
+        Result<FinePoint> where = frame.to_image(expected);
+        if (result.status == Status::ok) {
+            if (along || angle) line(found.marks[0], found.marks[1], colour);
+            if (angle) line(found.marks[2], found.marks[3], colour);
+            if (feature.kind == FeatureKind::diameter || feature.kind == FeatureKind::hole_diameter)
+                where = circle(frame, found, colour);
+            for (int i = 0; i < found.mark_count; ++i) {
+                const Point mark = place(found.marks[i]);
+                if (feature.kind == FeatureKind::position && i == 1)
+                    draw(draw_diagonal_cross(picture_.view(), mark, 2 * zoom_, colour_probe));
+                else
+                    draw(draw_cross(picture_.view(), mark, 3 * zoom_, colour));
+            }
+        }
+        if (!where) return;
+        if (along && result.status == Status::ok) where = found.marks[1];
+        if (angle && result.status == Status::ok) where = found.marks[2];
+        const Point corner = place(*where);
+        const std::string text = result.status == Status::ok ? human_feature(result, feature, recipe_.scale)
+                                                             : text_of(feature.name) + " ?";
+        label({corner.x + 4, corner.y + 4}, text, colour);
+    }
+
+    /// Draws a measured circle and answers the place of its label.
+    Result<FinePoint> circle(const PartFrame& frame, const Measurement& found, Rgb888 colour) {
+        const PartPoint centre = frame.to_part(found.marks[0]);
+        const std::int64_t radius = found.value.millionths / 2;
+        constexpr int corners = 72;
+        Result<FinePoint> last = Status::not_found;
+        Result<FinePoint> lower_right = Status::not_found;
+        for (int i = 0; i <= corners; ++i) {
+            const UnitVector way = unit_vector(
+                FineAngle(Angle::from_raw(static_cast<std::uint16_t>(65536 * (i % corners) / corners))));
+            const Result<FinePoint> next =
+                frame.to_image(centre + PartPoint{multiply_divide(radius, way.x.raw(), Unit::one),
+                                                  multiply_divide(radius, way.y.raw(), Unit::one)});
+            line(last, next, colour);
+            last = next;
+            if (next && (!lower_right || next->x + next->y > lower_right->x + lower_right->y))
+                lower_right = next;
+        }
+        return lower_right;
+    }
+
+    /// Finds a free place near the wanted one, downwards.
+    void label(Point corner, const std::string& text, Rgb888 colour) {
+        const Size size = label_size(span_of(text));
+        Rectangle box{clamp(corner.x, 0, maximum(picture_.size.width - size.width, 0)),
+                      clamp(corner.y, 0, maximum(picture_.size.height - size.height, 0)), size.width,
+                      size.height};
+        const auto taken = [&] {
+            for (const Label& other : labels_)
+                if (box.x <= other.box.right() && other.box.x <= box.right() && box.y <= other.box.bottom() &&
+                    other.box.y <= box.bottom())
+                    return true;
+            return false;
+        };
+        for (int tries = 0; tries < 40 && taken(); ++tries) box.y += size.height + 1;
+        labels_.push_back({box, text, colour});
+    }
+
+    const Recipe& recipe_;
+    int zoom_ = 1;
+    Picture<Rgb888> picture_;
+    std::vector<Label> labels_;
+};
+
+}  // namespace detail
+
+inline Picture<Rgb888> explain(const Picture<Gray8>& image, const Recipe& recipe,
+                               const std::vector<PartResult>& parts) {
+    detail::Explanation explanation(image, recipe);
+    for (std::size_t i = 0; i < parts.size(); ++i) explanation.add(static_cast<int>(i), parts[i]);
+    return explanation.finish();
+}
+
+}  // namespace fovea::apps

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+//
+// Outline: the contour of a part in its own frame, its extent, and its straight stretches.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fovea/decision/gauge.hpp>
+#include <fovea/measure/fit_circle.hpp>
+
+#include <gauge/samples.hpp>
+
+namespace fovea::apps {
+
+struct Extent {
+    std::int64_t left = 0, right = 0, top = 0, bottom = 0;
+};
+
+struct Outline {
+    std::vector<PartPoint> points;  ///< clockwise on screen
+    Extent extent;
+};
+
+/// A straight piece of an outline, in the direction of the outline.
+struct Stretch {
+    PartPoint from;
+    PartPoint to;
+    FineAngle direction() const { return angle_of(to.x - from.x, to.y - from.y); }
+    std::int64_t length() const { return hypotenuse(to.x - from.x, to.y - from.y); }
+};
+
+// ---- Implementation ---------------------------------------------------------------
+
+inline Outline outline_of(const Sample& sample, const PartFrame& frame) {
+    Outline outline;
+    static_cast<void>(trace_level_contour(
+        sample.image->view(), sample.threshold.part, Connectivity::eight, sample.region.first,
+        [&](FinePoint point) { outline.points.push_back(frame.to_part(point)); }));
+    if (outline.points.empty()) return outline;
+    Extent& box = outline.extent;
+    box = {outline.points[0].x, outline.points[0].x, outline.points[0].y, outline.points[0].y};
+    for (const PartPoint& point : outline.points) {
+        box.left = std::min(box.left, point.x);
+        box.right = std::max(box.right, point.x);
+        box.top = std::min(box.top, point.y);
+        box.bottom = std::max(box.bottom, point.y);
+    }
+    return outline;
+}
+
+/// A length over a whole number.
+inline FinePixel fine_ratio(FinePixel length, int divisor) {
+    return FinePixel::from_raw(length.raw() / divisor);
+}
+
+/// From widths of a pixel to the unit of the part, and back.
+inline PartPoint part_point(FinePoint place, const Scale& scale) {
+    return {multiply_divide(place.x.raw(), scale.x_per_pixel, FinePixel::one),
+            multiply_divide(place.y.raw(), scale.x_per_pixel, FinePixel::one)};
+}
+
+/// The circle through an outline, in widths of a pixel about the origin of the part.
+inline Result<CircleFit> circle_of(const Outline& outline, const Scale& scale) {
+    std::vector<FinePoint> points;
+    const std::size_t step = outline.points.size() / static_cast<std::size_t>(max_fit_points) + 1;
+    for (std::size_t i = 0; i < outline.points.size(); i += step)
+        points.push_back({FinePixel::from_ratio(outline.points[i].x, scale.x_per_pixel),
+                          FinePixel::from_ratio(outline.points[i].y, scale.x_per_pixel)});
+    return fit_circle({points.data(), static_cast<std::ptrdiff_t>(points.size())});
+}
+
+namespace detail {
+
+/// How far a point is from the line through two others.
+inline std::int64_t distance_from_chord(PartPoint point, PartPoint from, PartPoint to) {
+    const PartPoint chord{to.x - from.x, to.y - from.y};
+    const std::int64_t length = hypotenuse(chord.x, chord.y);
+    if (length == 0) return hypotenuse(point.x - from.x, point.y - from.y);
+    const Int128 area =
+        Int128::product(chord.x, point.y - from.y) - Int128::product(chord.y, point.x - from.x);
+    return std::abs(round_divide(area, Int128(length)));
+}
+
+/// The corners of an outline that keep it within a tolerance. Douglas and Peucker, 1973, with a stack.
+inline std::vector<std::size_t> corners_of(const std::vector<PartPoint>& points, std::int64_t tolerance) {
+    const std::size_t count = points.size();
+    std::size_t farthest = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (hypotenuse(points[i].x - points[0].x, points[i].y - points[0].y) >
+            hypotenuse(points[farthest].x - points[0].x, points[farthest].y - points[0].y))
+            farthest = i;
+    std::vector<std::size_t> corners = {0, farthest};
+    std::vector<std::pair<std::size_t, std::size_t>> open = {{0, farthest}, {farthest, count}};
+    while (!open.empty()) {
+        const auto [first, last] = open.back();
+        open.pop_back();
+        std::size_t worst = first;
+        std::int64_t most = tolerance;
+        for (std::size_t i = first + 1; i < last; ++i) {
+            const std::int64_t distance = distance_from_chord(points[i], points[first], points[last % count]);
+            if (distance > most) {
+                most = distance;
+                worst = i;
+            }
+        }
+        if (worst == first) continue;
+        corners.push_back(worst);
+        open.push_back({first, worst});
+        open.push_back({worst, last});
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
+}  // namespace detail
+
+/// The straight stretches of an outline that are longer than a sixth of it is wide, shortened by a seventh at
+/// both ends so that rounded corners stay out.
+inline std::vector<Stretch> straight_edges(const Outline& outline, std::int64_t pixel) {
+    std::vector<Stretch> edges;
+    if (outline.points.size() < 8) return edges;
+    const Extent& box = outline.extent;
+    const std::int64_t least = std::max(std::max(box.right - box.left, box.bottom - box.top) / 6, 24 * pixel);
+    const std::vector<std::size_t> corners = detail::corners_of(outline.points, pixel + pixel / 2);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const PartPoint from = outline.points[corners[i]];
+        const PartPoint to = outline.points[corners[(i + 1) % corners.size()]];
+        const PartPoint trim{(to.x - from.x) / 7, (to.y - from.y) / 7};
+        const Stretch whole{from, to};
+        if (whole.length() < least) continue;
+        edges.push_back({{from.x + trim.x, from.y + trim.y}, {to.x - trim.x, to.y - trim.y}});
+    }
+    return edges;
+}
+
+}  // namespace fovea::apps

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+//
+// What the gauge says of a part: one line for people, one JSON object for machines.
+#pragma once
+
+#include <string>
+
+#include <fovea/decision/gauge.hpp>
+#include <fovea/decision/recipe.hpp>
+
+#include <common/text.hpp>
+#include <gauge/recipe_schema.hpp>
+
+namespace fovea::apps {
+
+/// The unit of a feature's value; "" for a number.
+inline std::string unit_of(const Feature& feature, const Scale& scale) {
+    if (feature.kind == FeatureKind::angle) return "deg";
+    if (feature.kind == FeatureKind::hole_count) return "";
+    return scale.unit == LengthUnit::millimetre ? "mm" : "px";
+}
+
+/// Places that show a hundredth of a pixel, and three of an angle.
+inline int places_of(const Feature& feature, const Scale& scale) {
+    if (feature.kind == FeatureKind::hole_count) return 0;
+    if (feature.kind == FeatureKind::angle) return 2;
+    int places = 0;
+    for (std::int64_t step = 1000000; step > scale.x_per_pixel / 100 && places < 6; step /= 10) ++places;
+    return places;
+}
+
+inline const char* name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::ok: return "ok";
+        case Verdict::low: return "low";
+        case Verdict::high: return "high";
+        case Verdict::not_ok: return "not_ok";
+        case Verdict::unmeasured: break;
+    }
+    return "unmeasured";
+}
+
+/// Why a feature has no value, for people.
+inline std::string reason_of(const FeatureResult& result, const Feature& feature) {
+    switch (result.status) {
+        case Status::undecided: return "which end of the part is which is undecided";
+        case Status::out_of_range: return "the probe leaves the image";
+        case Status::degenerate: return "no line, circle or axis follows from what is there";
+        case Status::capacity_exceeded: return "too many edges along the probe";
+        case Status::bad_argument: return "the probe is shorter than a pixel";
+        case Status::not_found: break;
+        default: return describe(result.status);
+    }
+    switch (feature.kind) {
+        case FeatureKind::distance: return "fewer edges than asked for along the probe";
+        case FeatureKind::width: return "the probe does not cross the part";
+        case FeatureKind::diameter:
+        case FeatureKind::angle: return "less than half of the probes agree on an edge";
+        case FeatureKind::hole_diameter: return "no round hole there";
+        case FeatureKind::position: return "no hole there";
+        case FeatureKind::hole_count: break;
+    }
+    return "nothing found";
+}
+
+/// "length 40.003 mm", with what is wrong behind it.
+inline std::string human_feature(const FeatureResult& result, const Feature& feature, const Scale& scale) {
+    const std::string name = detail::text_of(feature.name);
+    if (result.status != Status::ok) return name + " NOT MEASURED (" + reason_of(result, feature) + ")";
+    const int places = places_of(feature, scale);
+    const std::string unit = unit_of(feature, scale);
+    std::string text =
+        name + " " + number(result.measurement.value, places) + (unit.empty() ? "" : " ") + unit;
+    const Tolerance& tolerance = feature.tolerance;
+    if (result.verdict == Verdict::low)
+        text += " LOW (least " + number(tolerance.nominal - tolerance.minus, places) + ")";
+    if (result.verdict == Verdict::high)
+        text += " HIGH (most " + number(tolerance.nominal + tolerance.plus, places) + ")";
+    return text;
+}
+
+/// The line of a part.
+inline std::string human_part(const std::string& image, int index, const PartResult& part,
+                              const Recipe& recipe) {
+    const char* verdict = part.verdict == Verdict::ok       ? "OK"
+                          : part.verdict == Verdict::not_ok ? "NOT OK"
+                                                            : "NOT JUDGED";
+    std::string text = image + " part " + std::to_string(index) + ": " + verdict;
+    for (int i = 0; i < part.feature_count; ++i)
+        text += (i == 0 ? "  " : ", ") + human_feature(part.features[i], recipe.features[i], recipe.scale);
+    const PartFrame& frame = part.pose.frame;
+    text += "  [x " + number(decimal_of(frame.origin().x), 2) + ", y " +
+            number(decimal_of(frame.origin().y), 2) + " px, " + number(decimal_of(frame.angle()), 2) +
+            " deg]";
+    return text + "\n";
+}
+
+/// One JSON object on a line, its keys always in this order.
+inline std::string json_part(const std::string& image, int index, const PartResult& part,
+                             const Recipe& recipe) {
+    const PartFrame& frame = part.pose.frame;
+    std::string text = "{\"image\":" + json_string(image) + ",\"part\":" + std::to_string(index) +
+                       ",\"x\":" + number(decimal_of(frame.origin().x), 3) +
+                       ",\"y\":" + number(decimal_of(frame.origin().y), 3) +
+                       ",\"angle_deg\":" + number(decimal_of(frame.angle()), 4) +
+                       ",\"flip_confident\":" + (part.pose.ends_certain ? "true" : "false") +
+                       ",\"flip_margin\":" + number(decimal_of(part.pose.margin), 3) +
+                       ",\"area_px\":" + std::to_string(part.area) +
+                       ",\"holes\":" + std::to_string(part.holes) + ",\"features\":[";
+    for (int i = 0; i < part.feature_count; ++i) {
+        const Feature& feature = recipe.features[i];
+        const FeatureResult& result = part.features[i];
+        const int places = feature.kind == FeatureKind::hole_count ? 0 : 6;
+        const bool measured = result.status == Status::ok;
+        text += (i == 0 ? "{\"name\":" : ",{\"name\":") + json_string(detail::text_of(feature.name)) +
+                ",\"value\":" + (measured ? number(result.measurement.value, places) : "null") +
+                ",\"unit\":" + json_string(unit_of(feature, recipe.scale)) +
+                ",\"nominal\":" + number(feature.tolerance.nominal, places) +
+                ",\"minus\":" + number(feature.tolerance.minus, places) +
+                ",\"plus\":" + number(feature.tolerance.plus, places) + ",\"verdict\":\"" +
+                name_of(result.verdict) + "\"";
+        if (!measured) text += ",\"reason\":" + json_string(reason_of(result, feature));
+        text += "}";
+    }
+    return text + "],\"verdict\":\"" + name_of(part.verdict) + "\"}\n";
+}
+
+/// The line of an image in which no part was judged.
+inline std::string json_no_part(const std::string& image, const std::string& problem) {
+    return "{\"image\":" + json_string(image) + ",\"part\":null,\"error\":" + json_string(problem) +
+           ",\"verdict\":\"unmeasured\"}\n";
+}
+
+}  // namespace fovea::apps

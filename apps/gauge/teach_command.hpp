@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+//
+// fovea teach: proposes a recipe from pictures of good parts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <common/arguments.hpp>
+#include <common/io.hpp>
+#include <common/picture_file.hpp>
+#include <gauge/explain.hpp>
+#include <gauge/gauge_command.hpp>
+#include <gauge/recipe_file.hpp>
+#include <gauge/teach.hpp>
+
+namespace fovea::apps {
+
+inline Command teach_help() {
+    return {"teach",
+            "--out RECIPE GOOD...",
+            "Proposes a recipe from pictures of good parts.",
+            {{"out", "RECIPE", "the recipe to write, - for the standard output; required"},
+             {"name", "NAME", "what the part is called"},
+             {"part", "dark|bright", "brightness of the part on its ground; found out if not\ngiven"},
+             {"known-length", "MM",
+              "the part's length along its axis, or its diameter: makes\nthe scale. Pictures of "
+              "parts that lie along the rows and\nacross them make one for each direction"},
+             {"mm-per-px", "MM", "the length of a pixel, if it is known"},
+             {"tolerance", "T", "allowed deviation of every length; half a pixel if not\ngiven"},
+             {"explain", "PICTURE", "write the first picture with the proposal drawn in"}},
+            "Parts must lie whole in the pictures; several parts in one picture are several samples.\n"
+            "Nominal values are the means over all of them. Read the recipe before you rely on it:\n"
+            "names, nominal values and tolerances are yours to set.\n"};
+}
+
+namespace detail {
+
+/// Reads a positive decimal option; false if it is none.
+inline bool positive_option(const Arguments& arguments, const std::string& name,
+                            std::optional<std::int64_t>& value, std::string& problem) {
+    if (!arguments.has(name)) return true;
+    const std::string text = arguments.value(name);
+    const Result<Decimal> number = parse_decimal(span_of(text));
+    if (number && number->millionths > 0) {
+        value = number->millionths;
+        return true;
+    }
+    problem = "--" + name + " takes a positive number such as 12.5, not '" + text + "'";
+    return false;
+}
+
+inline bool teach_options(const Arguments& arguments, TeachOptions& options, std::string& problem) {
+    options.name = arguments.value("name");
+    if (options.name.size() > static_cast<std::size_t>(Feature::max_name)) {
+        problem = "--name takes at most " + std::to_string(Feature::max_name) + " bytes";
+        return false;
+    }
+    const std::string part = arguments.value("part");
+    if (!part.empty() && part != "dark" && part != "bright") {
+        problem = "--part is dark or bright, not '" + part + "'";
+        return false;
+    }
+    if (!part.empty()) options.dark = part == "dark";
+    std::optional<std::int64_t> per_pixel;
+    if (!positive_option(arguments, "known-length", options.known_length, problem) ||
+        !positive_option(arguments, "mm-per-px", per_pixel, problem) ||
+        !positive_option(arguments, "tolerance", options.tolerance, problem))
+        return false;
+    if (per_pixel) options.scale = Scale{LengthUnit::millimetre, *per_pixel, *per_pixel};
+    if (per_pixel && options.known_length)
+        problem = "--known-length and --mm-per-px both give the scale; give one";
+    if (per_pixel && !scale_in_range(*options.scale)) problem = "--mm-per-px is from 0.00001 to 100";
+    return problem.empty();
+}
+
+/// What was proposed, for people.
+inline std::string summary(const Taught& taught) {
+    const Recipe& recipe = taught.recipe;
+    const std::size_t count = taught.samples.parts.size();
+    std::string text = std::to_string(count) + (count == 1 ? " good part, " : " good parts, ") +
+                       (recipe.locate.dark_part ? "dark on bright" : "bright on dark") + ", ";
+    switch (recipe.locate.orientation) {
+        case OrientationRule::full: text += "with ends that can be told apart\n"; break;
+        case OrientationRule::symmetric: text += "the same when turned by half\n"; break;
+        case OrientationRule::none: text += "without a clear axis: measured as it lies\n"; break;
+    }
+    if (recipe.scale.unit == LengthUnit::millimetre)
+        text += "a pixel is " + shortest(Decimal{recipe.scale.x_per_pixel}) + " mm wide and " +
+                shortest(Decimal{recipe.scale.y_per_pixel}) + " mm high\n";
+    for (const Feature& feature : recipe.features) {
+        const int places = places_of(feature, recipe.scale);
+        const std::string unit = unit_of(feature, recipe.scale);
+        const std::string name = "  " + text_of(feature.name);
+        text += name + std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') +
+                number(feature.tolerance.nominal, places) + (unit.empty() ? "" : " ") + unit + "  -" +
+                number(feature.tolerance.minus, places) + " +" + number(feature.tolerance.plus, places) +
+                "\n";
+    }
+    return text;
+}
+
+}  // namespace detail
+
+/// Runs the command with the words behind its name.
+template <class Io>
+ExitCode teach_command(Io& io, const std::vector<std::string>& words) {
+    const Arguments arguments(teach_help(), words);
+    if (arguments.has("help")) {
+        io.print(help_of(teach_help()));
+        return exit_ok;
+    }
+    std::string problem = arguments.problem();
+    TeachOptions options;
+    const std::string out = arguments.value("out");
+    if (problem.empty() && out.empty()) problem = "where to? give --out RECIPE";
+    if (problem.empty() && arguments.operands().empty())
+        problem = "which picture? give at least one GOOD part";
+    if (problem.empty()) detail::teach_options(arguments, options, problem);
+    if (!problem.empty()) {
+        io.complain("fovea teach: " + problem);
+        return exit_failed;
+    }
+    std::vector<Picture<Gray8>> images(arguments.operands().size());
+    for (std::size_t i = 0; i < images.size(); ++i)
+        if (!load_gray(io.storage(), arguments.operands()[i], images[i], problem)) {
+            io.complain(problem);
+            return exit_failed;
+        }
+    const Taught taught = teach(images, arguments.operands(), options);
+    for (const std::string& note : taught.notes) io.complain("note: " + note);
+    if (!taught.problem.empty()) {
+        io.complain("fovea teach: " + taught.problem);
+        return exit_failed;
+    }
+    const std::string text = write_recipe(taught.recipe);
+    const Status saved = io.storage().save(out.c_str(), bytes_of(text));
+    if (saved != Status::ok) {
+        io.complain(file_problem(out, saved, io.storage()));
+        return exit_failed;
+    }
+    if (out != "-") io.print(detail::summary(taught) + "wrote " + out + "\n");
+    if (arguments.has("explain")) {
+        std::vector<PartResult> parts;
+        static_cast<void>(gauge_picture(images[0], taught.recipe, parts));
+        if (!save_picture(io.storage(), arguments.value("explain"), explain(images[0], taught.recipe, parts),
+                          problem)) {
+            io.complain(problem);
+            return exit_failed;
+        }
+    }
+    return exit_ok;
+}
+
+}  // namespace fovea::apps

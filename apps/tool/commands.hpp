@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// The commands of the tool, and which one a command line means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <common/arguments.hpp>
+#include <common/io.hpp>
+#include <gauge/gauge_command.hpp>
+#include <gauge/teach_command.hpp>
+#include <make_part/make_part_command.hpp>
+
+#ifndef FOVEA_VERSION
+#define FOVEA_VERSION "unknown"
+#endif
+
+namespace fovea::apps {
+
+namespace detail {
+
+template <class Io>
+struct Entry {
+    Command help;
+    ExitCode (*run)(Io& io, const std::vector<std::string>& words);
+};
+
+template <class Io>
+std::vector<Entry<Io>> commands() {
+    return {{gauge_help(), gauge_command<Io>},
+            {teach_help(), teach_command<Io>},
+            {make_part_help(), make_part_command<Io>}};
+}
+
+template <class Io>
+std::string overview() {
+    std::string text =
+        "usage: fovea COMMAND [options] ...\n\nMeasures and decides with pictures.\n\ncommands:\n";
+    for (const Entry<Io>& entry : commands<Io>()) {
+        const std::string name = std::string("  ") + entry.help.name;
+        text += name + std::string(14 - name.size(), ' ') + entry.help.summary + "\n";
+    }
+    return text + "\n`fovea COMMAND --help` tells more. `fovea --version` tells the version.\n";
+}
+
+}  // namespace detail
+
+/// Runs the tool with the words of its command line.
+template <class Io>
+ExitCode run_command(Io& io, const std::vector<std::string>& words) {
+    const std::string name = words.empty() ? "--help" : words[0];
+    if (name == "--help" || name == "-h" || name == "help") {
+        io.print(detail::overview<Io>());
+        return words.empty() ? exit_failed : exit_ok;
+    }
+    if (name == "--version") {
+        io.print("fovea " FOVEA_VERSION "\n");
+        return exit_ok;
+    }
+    std::vector<std::string> names;
+    for (const detail::Entry<Io>& entry : detail::commands<Io>()) {
+        names.push_back(entry.help.name);
+        if (name == entry.help.name) return entry.run(io, {words.begin() + 1, words.end()});
+    }
+    io.complain("fovea: unknown command " + name + hint(nearest_name(name, names)) +
+                " `fovea --help` lists them");
+    return exit_failed;
+}
+
+}  // namespace fovea::apps
