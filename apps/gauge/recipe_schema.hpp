@@ -208,6 +208,10 @@ inline const auto& recipe_keys() {
             .range(1, pixels, "px"),
         Key{"locate", "at_border", KeyType::boolean, "measure parts that touch the border of the image too",
             load_recipe<&R::locate, &L::at_border>, show_recipe<&R::locate, &L::at_border>},
+        Key{"locate", "pose", KeyType::choice,
+            "origin and axis follow from the part without its holes, or with",
+            load_recipe<&R::locate, &L::pose>, show_recipe<&R::locate, &L::pose>}
+            .one_of("region|outline"),
         Key{"locate", "orientation", KeyType::choice,
             "full: axis and ends; symmetric: axis alone; none: as it lies",
             load_recipe<&R::locate, &L::orientation>, show_recipe<&R::locate, &L::orientation>}

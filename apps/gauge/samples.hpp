@@ -22,7 +22,7 @@ struct Sample {
     Region region;
     std::vector<Hole> holes;  ///< its own
     Threshold threshold;
-    CentralMoments moments;
+    PartMoments moments;
     FineAngle axis;  ///< in the image as it is
     std::int64_t filled_area() const { return region.moments.area() + region.hole_area; }
 };
@@ -30,6 +30,8 @@ struct Sample {
 struct Samples {
     std::vector<Sample> parts;
     bool dark = true;
+    PoseRule pose =
+        PoseRule::region;  ///< the outline where there are holes, so that these do not move the frame
     std::vector<std::string> notes;
     std::string problem;  ///< why there are none
 };
@@ -121,13 +123,16 @@ inline Samples find_samples(const std::vector<Picture<Gray8>>& images, const std
     }
     if (best.parts.empty())
         best.problem = "no part found: it must lie whole in the picture, on a ground of another brightness";
+    for (const Sample& part : best.parts)
+        if (!part.holes.empty()) best.pose = PoseRule::outline;
     for (Sample& part : best.parts) {
         LocateRule rule;
-        const Result<CentralMoments> moments =
+        rule.pose = best.pose;
+        const Result<PartMoments> moments =
             moments_of(part.image->view(), rule, part.threshold.part, part.region,
                        {part.holes.data(), static_cast<std::ptrdiff_t>(part.holes.size())});
         if (moments) part.moments = *moments;
-        const Result<Orientation> axis = orientation(part.moments);
+        const Result<Orientation> axis = orientation(part.moments.frame);
         if (axis) part.axis = axis->axis;
     }
     return best;
@@ -136,6 +141,7 @@ inline Samples find_samples(const std::vector<Picture<Gray8>>& images, const std
 inline LocateRule rule_from(const Samples& samples, const Scale& scale) {
     LocateRule rule;
     rule.dark_part = samples.dark;
+    rule.pose = samples.pose;
     std::int64_t least = samples.parts.front().region.moments.area();
     std::int64_t most = least;
     for (const Sample& part : samples.parts) {
@@ -149,13 +155,13 @@ inline LocateRule rule_from(const Samples& samples, const Scale& scale) {
     // The axis must be clear on every sample, and the ends must follow from their common third moments.
     std::vector<Asymmetry> ends;
     for (const Sample& part : samples.parts) {
-        const CentralMoments square = stretched(part.moments, aspect_of(scale));
-        const Result<Orientation> axis = orientation(square);
+        const Result<Orientation> axis = orientation(stretched(part.moments.frame, aspect_of(scale)));
         if (!axis || axis->elongation < Ratio::from_ratio(1, 25)) {
             rule.orientation = OrientationRule::none;
             return rule;
         }
-        const Result<Asymmetry> each = asymmetry(square, axis->axis);
+        const Result<Asymmetry> each =
+            asymmetry(stretched(part.moments.region, aspect_of(scale)), axis->axis);
         if (each) ends.push_back(*each);
     }
     rule.orientation = OrientationRule::symmetric;

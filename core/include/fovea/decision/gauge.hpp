@@ -125,7 +125,7 @@ inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std
     if (found != Status::ok && found != Status::capacity_exceeded) return found;
     parts.clear();
     for (const Region& region : regions) {
-        const Result<CentralMoments> moments =
+        const Result<PartMoments> moments =
             moments_of(image, recipe.locate, threshold.part, region, holes.span());
         if (!moments) continue;
         PartResult* part = parts.append();

@@ -38,10 +38,17 @@ struct PartPose {
     Ratio elongation;                        ///< how clear the axis is, see Orientation
 };
 
-/// The pose of a region with these moments under the rule of a recipe.
+/// The moments that say how a part lies: origin and axis follow from those of the frame, which end is the
+/// front from those of the region.
+struct PartMoments {
+    CentralMoments frame;
+    CentralMoments region;
+};
+
+/// The pose of a part with these moments under the rule of a recipe.
 ///
 /// Source  book eq. 6.1-6.8; an axis of less than least_elongation is none
-constexpr PartPose pose_of(const CentralMoments& moments, const LocateRule& rule, const Scale& scale);
+constexpr PartPose pose_of(const PartMoments& moments, const LocateRule& rule, const Scale& scale);
 inline constexpr Ratio least_elongation = Ratio::from_ratio(1, 50);
 
 /// What tells part from ground in an image.
@@ -54,8 +61,8 @@ struct Threshold {
 /// the image first and the contour in the image is another.
 ///
 /// Errors  as fine_moments()
-inline Result<CentralMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
-                                         const Region& region, Span<const Hole> holes);
+inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
+                                      const Region& region, Span<const Hole> holes);
 
 /// The threshold that a rule asks for.
 ///
@@ -80,10 +87,11 @@ inline Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, S
 
 // ---- Implementation ---------------------------------------------------------------
 
-constexpr PartPose pose_of(const CentralMoments& moments, const LocateRule& rule, const Scale& scale) {
-    const CentralMoments square = stretched(moments, aspect_of(scale));
+constexpr PartPose pose_of(const PartMoments& moments, const LocateRule& rule, const Scale& scale) {
+    const CentralMoments square = stretched(moments.frame, aspect_of(scale));
+    const FinePoint origin = moments.frame.centroid;
     PartPose pose;
-    pose.frame = PartFrame(moments.centroid, FineAngle(), scale);
+    pose.frame = PartFrame(origin, FineAngle(), scale);
     const Result<Orientation> axis = orientation(square);
     if (axis) pose.elongation = axis->elongation;
     if (rule.orientation == OrientationRule::none) {
@@ -94,19 +102,19 @@ constexpr PartPose pose_of(const CentralMoments& moments, const LocateRule& rule
         pose.orientation = Status::degenerate;
         return pose;
     }
-    pose.frame = PartFrame(moments.centroid, axis->axis, scale);
+    pose.frame = PartFrame(origin, axis->axis, scale);
     if (rule.orientation == OrientationRule::symmetric) {
         pose.orientation = Status::ok;
         return pose;
     }
-    const Result<Asymmetry> ends = asymmetry(square, axis->axis);
+    const Result<Asymmetry> ends = asymmetry(stretched(moments.region, aspect_of(scale)), axis->axis);
     if (!ends) return pose;
     const Result<HalfTurn> turn = rule.ends == Asymmetry{} ? half_turn(*ends) : half_turn(*ends, rule.ends);
     pose.orientation = turn.status();
     if (!turn) return pose;
     pose.ends_certain = true;
     pose.margin = turn->margin;
-    if (turn->turned) pose.frame = PartFrame(moments.centroid, axis->axis + FineAngle::half_turn(), scale);
+    if (turn->turned) pose.frame = PartFrame(origin, axis->axis + FineAngle::half_turn(), scale);
     return pose;
 }
 
@@ -139,10 +147,20 @@ inline Result<Threshold> threshold_of(const Histogram& histogram, const LocateRu
     return result;
 }
 
-inline Result<CentralMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
-                                         const Region& region, Span<const Hole> holes) {
-    if (rule.opening > 1) return central_moments(region.moments);
-    return fine_moments(image, part, region, holes);
+inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
+                                      const Region& region, Span<const Hole> holes) {
+    const bool by_pixels = rule.opening > 1;
+    const Result<CentralMoments> whole =
+        by_pixels ? central_moments(region.moments) : fine_moments(image, part, region, holes);
+    if (!whole) return whole.status();
+    if (rule.pose == PoseRule::region) return PartMoments{*whole, *whole};
+    Moments filled = region.moments;
+    for (const Hole& hole : holes)
+        if (hole.region == region.number) filled.add(hole.moments);
+    const Result<CentralMoments> outline =
+        by_pixels ? central_moments(filled) : fine_moments(image, part, region, {});
+    if (!outline) return outline.status();
+    return PartMoments{*outline, *whole};
 }
 
 inline std::int64_t find_parts_scratch(Size size, const LocateRule& rule) {

@@ -44,6 +44,12 @@ enum class OrientationRule : std::uint8_t {
     none,       ///< the image's own directions: round parts, or parts that lie in a fixture
 };
 
+/// What the origin and the axis of a part rest on.
+enum class PoseRule : std::uint8_t {
+    region,   ///< its pixels, as in the book: a hole that grows moves the frame
+    outline,  ///< all inside its outline, holes too
+};
+
 struct LocateRule {
     bool dark_part = true;  ///< dark part on bright ground (back light), else bright on dark
     ThresholdRule threshold = ThresholdRule::otsu;
@@ -55,6 +61,7 @@ struct LocateRule {
     std::int64_t area_max = 67092481;  ///< pixels; all of the largest image
     std::int64_t hole_area_min = 20;   ///< pixels; smaller holes are dirt
     bool at_border = false;            ///< measure parts that touch the border of the image too
+    PoseRule pose = PoseRule::region;
     OrientationRule orientation = OrientationRule::full;
     Asymmetry
         ends;  ///< of the full rule: the taught part's, which tells its ends apart; zero if none is taught
