@@ -30,10 +30,10 @@ struct Command {
 /// What stood on the command line.
 class Arguments {
 public:
-    /// Reads the words behind the command. problem() says what is wrong, "" if nothing is.
+    /// Reads the words behind the command. problem() says what is wrong first, "" if nothing is.
     Arguments(const Command& command, const std::vector<std::string>& words) {
         bool options_end = false;
-        for (std::size_t i = 0; i < words.size() && problem_.empty(); ++i) {
+        for (std::size_t i = 0; i < words.size(); ++i) {
             const std::string& word = words[i];
             if (options_end || word == "-" || word.empty() || word[0] != '-')
                 operands_.push_back(word);
@@ -61,32 +61,39 @@ private:
     void read_option(const Command& command, const std::vector<std::string>& words, std::size_t& i) {
         const std::size_t equals = words[i].find('=');
         const std::string name = words[i].substr(0, equals);
-        std::vector<std::string> names = {"--help"};
+        std::vector<std::string> names = {"help"};
         const Option* option = nullptr;
         for (const Option& known : command.options) {
-            names.push_back(std::string("--") + known.name);
-            if (names.back() == name) option = &known;
+            names.push_back(known.name);
+            if ("--" + names.back() == name) option = &known;
         }
         if (name == "--help" || name == "-h") {
             given_.push_back({"help", ""});
             return;
         }
         if (option == nullptr) {
-            problem_ = "unknown option " + name + hint(nearest_name(name, names));
+            // The dashes do not make names alike.
+            const std::string near =
+                nearest_name(name.substr(std::min(name.find_first_not_of('-'), name.size())), names);
+            fail("unknown option " + name + hint(near.empty() ? "" : "--" + near));
             return;
         }
         const bool takes_value = option->value[0] != '\0';
         std::string value;
         if (equals != std::string::npos) {
             value = words[i].substr(equals + 1);
-            if (!takes_value) problem_ = name + " takes no value";
+            if (!takes_value) fail(name + " takes no value");
         } else if (takes_value) {
-            if (i + 1 < words.size())
+            // Another option there means that the value was forgotten.
+            if (i + 1 < words.size() && words[i + 1].compare(0, 2, "--") != 0)
                 value = words[++i];
             else
-                problem_ = name + " needs a value: " + name + " " + option->value;
+                fail(name + " needs a value: " + name + " " + option->value);
         }
         given_.push_back({option->name, value});
+    }
+    void fail(const std::string& problem) {
+        if (problem_.empty()) problem_ = problem;
     }
     const Given* find(const std::string& name) const {
         const Given* last = nullptr;

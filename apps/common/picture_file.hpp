@@ -12,6 +12,7 @@
 #include <fovea/codec/png_writer.hpp>
 #include <fovea/codec/pnm.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/statistics/moments.hpp>
 
 #include <common/io.hpp>
 #include <common/text.hpp>
@@ -33,9 +34,10 @@ private:
     std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(sizeof(Pixel)) * size.width; }
 };
 
-/// Reads a picture as brightness. problem says why there is none.
+/// Reads a picture as brightness. If there is none, problem says why and the picture is empty.
 template <class Storage>
 bool load_gray(Storage& storage, const std::string& name, Picture<Gray8>& picture, std::string& problem) {
+    picture = Picture<Gray8>();
     const Result<Span<const std::uint8_t>> bytes = storage.load(name.c_str());
     if (!bytes) {
         problem = file_problem(name, bytes.status(), storage);
@@ -43,31 +45,48 @@ bool load_gray(Storage& storage, const std::string& name, Picture<Gray8>& pictur
     }
     const PictureFormat format = picture_format(*bytes);
     if (format == PictureFormat::unknown) {
-        problem = name + ": not a picture that fovea reads: PGM, PPM, BMP, PNG or baseline JPEG";
+        problem =
+            name + (bytes->empty() ? ": the file is empty"
+                                   : ": not a picture that fovea reads: PGM, PPM, BMP, PNG or baseline JPEG");
         return false;
     }
     const Result<PictureInfo> info = inspect_picture(*bytes);
     Status status = info.status();
-    if (info) {
+    if (info && (info->size.width > max_moment_side || info->size.height > max_moment_side))
+        status = Status::image_too_large;
+    if (status == Status::ok) {
         picture = Picture<Gray8>(info->size);
         std::vector<std::uint8_t> scratch(static_cast<std::size_t>(info->scratch_bytes));
         status = decode_picture(*bytes, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())},
                                 picture.view());
     }
     if (status == Status::ok) return true;
+    picture = Picture<Gray8>();
     problem = name + ": " + describe(status) + " (" + describe(format) + ")";
+    if (status == Status::unsupported)
+        problem +=
+            format == PictureFormat::jpeg ? "; save it as PNG or as baseline JPEG" : "; save it as PNG";
+    if (status == Status::image_too_large)
+        problem += "; sides are at most " + std::to_string(max_moment_side) + " pixels";
     return false;
 }
 
-/// Writes a picture: PGM or PPM if the name says so, else PNG.
+/// Writes a picture: PGM or PPM if the name says so, else PNG. Refuses a name that promises another format.
 template <class Storage, class Pixel>
 bool save_picture(Storage& storage, const std::string& name, const Picture<Pixel>& picture,
                   std::string& problem) {
-    const auto ends_with = [&](const char* ending) {
-        const std::string e = ending;
-        return name.size() >= e.size() && name.compare(name.size() - e.size(), e.size(), e) == 0;
+    const auto ends_with_one_of = [&](const char* endings) {
+        for (const std::string& ending : split(endings, '|'))
+            if (name.size() >= ending.size() &&
+                small_letters(name.substr(name.size() - ending.size())) == ending)
+                return true;
+        return false;
     };
-    const bool pnm = ends_with(".pgm") || ends_with(".ppm");
+    if (ends_with_one_of(".jpg|.jpeg|.bmp|.tif|.tiff|.gif|.webp")) {
+        problem = name + ": fovea writes PNG, PGM and PPM; name it .png";
+        return false;
+    }
+    const bool pnm = ends_with_one_of(".pgm|.ppm|.pnm");
     const std::int64_t room =
         pnm ? encoded_pnm_bytes<Pixel>(picture.size) : encoded_png_bytes<Pixel>(picture.size);
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(room));

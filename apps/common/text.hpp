@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fovea/base/span.hpp>
+#include <fovea/draw/utf8.hpp>
 #include <fovea/number/angle.hpp>
 #include <fovea/number/decimal.hpp>
 #include <fovea/number/fixed.hpp>
@@ -44,41 +45,53 @@ inline std::string shortest(Decimal value) {
     return text;
 }
 
+/// True if the first code point of a text was read from bytes that are no UTF-8.
+inline bool is_no_utf8(CodePoint read, Span<const char> text) {
+    return read.value == replacement_character && string_of(text.first(read.bytes)) != "\xef\xbf\xbd";
+}
+
+/// True for UTF-8 without control characters: a name that stays on its line.
+inline bool printable(const std::string& text) {
+    for (Span<const char> rest = span_of(text); !rest.empty();) {
+        const CodePoint read = first_code_point(rest);
+        if (is_no_utf8(read, rest)) return false;
+        if (read.value < 0x20 || (read.value >= 0x7f && read.value < 0xa0)) return false;
+        rest = rest.from(read.bytes);
+    }
+    return true;
+}
+
+/// A text with question marks for its control characters, so that it stays on one line of a terminal.
+inline std::string one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    return text;
+}
+
+/// At most so many bytes of a text, whole characters, with dots for the rest.
+inline std::string shortened(const std::string& text, std::size_t most) {
+    if (text.size() <= most) return text;
+    while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most;
+    return text.substr(0, most) + "...";
+}
+
 /// A text as a JSON string with its quotes. What is not UTF-8 becomes the replacement character.
 inline std::string json_string(const std::string& text) {
     static const char* digits = "0123456789abcdef";
     std::string json = "\"";
-    for (std::size_t i = 0; i < text.size();) {
-        const auto c = static_cast<unsigned char>(text[i]);
-        // How many bytes follow, by the first one, and whether they are there and make no overlong form.
-        const std::size_t more = c < 0x80                 ? 0
-                                 : c >= 0xc2 && c <= 0xdf ? 1
-                                 : c >= 0xe0 && c <= 0xef ? 2
-                                 : c >= 0xf0 && c <= 0xf4 ? 3
-                                                          : 4;
-        bool whole = more < 4 && i + more < text.size();
-        for (std::size_t k = 1; whole && k <= more; ++k) {
-            const auto next = static_cast<unsigned char>(text[i + k]);
-            const unsigned low = k > 1 ? 0x80u : c == 0xe0 ? 0xa0u : c == 0xf0 ? 0x90u : 0x80u;
-            const unsigned high = k > 1 ? 0xbfu : c == 0xed ? 0x9fu : c == 0xf4 ? 0x8fu : 0xbfu;
-            whole = next >= low && next <= high;
-        }
-        if (!whole) {
+    for (Span<const char> rest = span_of(text); !rest.empty();) {
+        const CodePoint read = first_code_point(rest);
+        if (is_no_utf8(read, rest)) {
             json += "\\ufffd";
-            ++i;
-            continue;
-        }
-        if (c == '"' || c == '\\') {
-            json += '\\';
-            json += static_cast<char>(c);
-        } else if (c < 0x20 || c == 0x7f) {
+        } else if (read.value < 0x20 || read.value == 0x7f) {
             json += "\\u00";
-            json += digits[c >> 4];
-            json += digits[c & 15];
+            json += digits[read.value >> 4];
+            json += digits[read.value & 15];
         } else {
-            json.append(text, i, more + 1);
+            if (rest[0] == '"' || rest[0] == '\\') json += '\\';
+            json += string_of(rest.first(read.bytes));
         }
-        i += more + 1;
+        rest = rest.from(read.bytes);
     }
     return json + '"';
 }
@@ -99,12 +112,20 @@ inline std::size_t edit_distance(const std::string& a, const std::string& b) {
     return row[b.size()];
 }
 
-/// The name that was probably meant, "" if none is near: at most half of its characters differ.
+/// ASCII capitals as small letters.
+inline std::string small_letters(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+/// The name that was probably meant, "" if none is near: at most half of its characters differ. Capitals do
+/// not count.
 inline std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
     std::string best;
     std::size_t least = word.size() / 2 + 1;
     for (const std::string& name : names) {
-        const std::size_t distance = edit_distance(word, name);
+        const std::size_t distance = edit_distance(small_letters(word), small_letters(name));
         if (distance < least) {
             least = distance;
             best = name;
@@ -118,10 +139,10 @@ inline std::string hint(const std::string& name) {
 }
 
 /// "a, b and c".
-inline std::string listed(const std::vector<std::string>& words) {
+inline std::string listed(const std::vector<std::string>& words, const std::string& last = "and") {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+        text += (i == 0 ? "" : i + 1 == words.size() ? " " + last + " " : ", ") + words[i];
     return text;
 }
 

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fovea/decision/gauge.hpp>
 #include <fovea/measure/fit_circle.hpp>
+#include <fovea/measure/fit_line.hpp>
 
 #include <gauge/samples.hpp>
 
@@ -61,13 +63,17 @@ inline PartPoint part_point(FinePoint place, const Scale& scale) {
             multiply_divide(place.y.raw(), scale.x_per_pixel, FinePixel::one)};
 }
 
+inline FinePoint in_pixels(PartPoint place, const Scale& scale) {
+    return {FinePixel::from_ratio(place.x, scale.x_per_pixel),
+            FinePixel::from_ratio(place.y, scale.x_per_pixel)};
+}
+
 /// The circle through an outline, in widths of a pixel about the origin of the part.
 inline Result<CircleFit> circle_of(const Outline& outline, const Scale& scale) {
     std::vector<FinePoint> points;
     const std::size_t step = outline.points.size() / static_cast<std::size_t>(max_fit_points) + 1;
     for (std::size_t i = 0; i < outline.points.size(); i += step)
-        points.push_back({FinePixel::from_ratio(outline.points[i].x, scale.x_per_pixel),
-                          FinePixel::from_ratio(outline.points[i].y, scale.x_per_pixel)});
+        points.push_back(in_pixels(outline.points[i], scale));
     return fit_circle({points.data(), static_cast<std::ptrdiff_t>(points.size())});
 }
 
@@ -114,23 +120,48 @@ inline std::vector<std::size_t> corners_of(const std::vector<PartPoint>& points,
     return corners;
 }
 
+/// A line fitted to the points first..last of an outline, cut at the feet of these two.
+inline std::optional<Stretch> fitted_edge(const Outline& outline, std::size_t first, std::size_t last,
+                                          const Scale& scale) {
+    const std::size_t count = outline.points.size();
+    const std::size_t step = (last - first) / static_cast<std::size_t>(max_fit_points) + 1;
+    std::vector<FinePoint> points;
+    for (std::size_t i = first; i <= last; i += step)
+        points.push_back(in_pixels(outline.points[i % count], scale));
+    const Result<LineFit> fit = fit_line({points.data(), static_cast<std::ptrdiff_t>(points.size())});
+    if (!fit) return {};
+    const UnitVector along = unit_vector(fit->line.direction);
+    const PartPoint centre = part_point(fit->line.point, scale);
+    const auto foot = [&](PartPoint point) {
+        const PartPoint way = point - centre;
+        const std::int64_t t = multiply_divide(way.x, along.x.raw(), Unit::one) +
+                               multiply_divide(way.y, along.y.raw(), Unit::one);
+        return centre + PartPoint{multiply_divide(t, along.x.raw(), Unit::one),
+                                  multiply_divide(t, along.y.raw(), Unit::one)};
+    };
+    return Stretch{foot(outline.points[first % count]), foot(outline.points[last % count])};
+}
+
 }  // namespace detail
 
-/// The straight stretches of an outline that are longer than a sixth of it is wide, shortened by a seventh at
-/// both ends so that rounded corners stay out.
-inline std::vector<Stretch> straight_edges(const Outline& outline, std::int64_t pixel) {
+/// The straight stretches of an outline that are longer than a sixth of it is wide, without a seventh at both
+/// ends so that rounded corners stay out: lines fitted to the points between.
+inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& scale) {
     std::vector<Stretch> edges;
-    if (outline.points.size() < 8) return edges;
+    const std::size_t count = outline.points.size();
+    if (count < 8) return edges;
+    const std::int64_t pixel = std::max(scale.x_per_pixel, scale.y_per_pixel);
     const Extent& box = outline.extent;
     const std::int64_t least = std::max(std::max(box.right - box.left, box.bottom - box.top) / 6, 24 * pixel);
     const std::vector<std::size_t> corners = detail::corners_of(outline.points, pixel + pixel / 2);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const PartPoint from = outline.points[corners[i]];
-        const PartPoint to = outline.points[corners[(i + 1) % corners.size()]];
-        const PartPoint trim{(to.x - from.x) / 7, (to.y - from.y) / 7};
-        const Stretch whole{from, to};
+        const std::size_t first = corners[i];
+        const std::size_t last = i + 1 < corners.size() ? corners[i + 1] : count + corners[0];
+        const Stretch whole{outline.points[first], outline.points[last % count]};
         if (whole.length() < least) continue;
-        edges.push_back({{from.x + trim.x, from.y + trim.y}, {to.x - trim.x, to.y - trim.y}});
+        const std::size_t trim = (last - first) / 7;
+        const std::optional<Stretch> edge = detail::fitted_edge(outline, first + trim, last - trim, scale);
+        if (edge) edges.push_back(*edge);
     }
     return edges;
 }

@@ -13,6 +13,10 @@
 
 namespace fovea::apps {
 
+/// Units of keys that depend on the recipe: its length unit, and that of a feature's value.
+inline constexpr const char* length_unit = "unit";
+inline constexpr const char* value_unit = "value";
+
 enum class KeyType : std::uint8_t { name, choice, decimal, integer, boolean, numbers };
 
 /// A value on its way between text and recipe: millionths for decimals and arrays of numbers, a number from 0
@@ -37,7 +41,7 @@ struct Key {
     const char* text;  ///< one line of help
     Load load;
     Show show;
-    const char* unit = "";        ///< "" when it has none; "unit" is the recipe's length unit
+    const char* unit = "";        ///< "" when it has none; see length_unit and value_unit
     std::int64_t low = 0;         ///< smallest value, in millionths for decimals and arrays
     std::int64_t high = 0;        ///< largest value
     const char* choices = "";     ///< "a|b|c", in the order of the enumeration
@@ -172,10 +176,10 @@ inline const auto& recipe_keys() {
             .one_of("px|mm"),
         Key{"scale", "per_pixel_x", KeyType::decimal, "length of a pixel along the rows of the image",
             load_recipe<&R::scale, &Scale::x_per_pixel>, show_recipe<&R::scale, &Scale::x_per_pixel>}
-            .range(min_units_per_pixel, max_units_per_pixel, "unit"),
+            .range(min_units_per_pixel, max_units_per_pixel, length_unit),
         Key{"scale", "per_pixel_y", KeyType::decimal, "length of a pixel down its columns",
             load_recipe<&R::scale, &Scale::y_per_pixel>, show_recipe<&R::scale, &Scale::y_per_pixel>}
-            .range(min_units_per_pixel, max_units_per_pixel, "unit"),
+            .range(min_units_per_pixel, max_units_per_pixel, length_unit),
 
         Key{"locate", "part", KeyType::choice, "brightness of the part on its ground",
             load_recipe<&R::locate, &L::dark_part>, show_recipe<&R::locate, &L::dark_part>}
@@ -194,7 +198,7 @@ inline const auto& recipe_keys() {
             load_recipe<&R::locate, &L::bright_quantile>, show_recipe<&R::locate, &L::bright_quantile>}
             .range(0, 1000000),
         Key{"locate", "opening", KeyType::integer,
-            "side of the square that clears hairs and specks; odd, 1 none",
+            "odd side of the square that clears hairs and specks, 1 for none",
             load_recipe<&R::locate, &L::opening>, show_recipe<&R::locate, &L::opening>}
             .range(1, max_element_side, "px"),
         Key{"locate", "area_min", KeyType::integer, "smallest area of a part",
@@ -209,11 +213,11 @@ inline const auto& recipe_keys() {
         Key{"locate", "at_border", KeyType::boolean, "measure parts that touch the border of the image too",
             load_recipe<&R::locate, &L::at_border>, show_recipe<&R::locate, &L::at_border>},
         Key{"locate", "pose", KeyType::choice,
-            "origin and axis follow from the part without its holes, or with",
+            "what origin and axis rest on, the part without its holes or all inside its outline",
             load_recipe<&R::locate, &L::pose>, show_recipe<&R::locate, &L::pose>}
             .one_of("region|outline"),
         Key{"locate", "orientation", KeyType::choice,
-            "full: axis and ends; symmetric: axis alone; none: as it lies",
+            "how its turn is found, by axis and ends, by the axis alone or not at all",
             load_recipe<&R::locate, &L::orientation>, show_recipe<&R::locate, &L::orientation>}
             .one_of("full|symmetric|none"),
         Key{"locate", "ends", KeyType::numbers, "third moments that tell the part's ends apart", load_ends,
@@ -233,42 +237,42 @@ inline const auto& recipe_keys() {
             .needed(),
         Key{"feature", "from", KeyType::numbers, "start of the probe, or of the first edge",
             load_point<&F::from>, show_point<&F::from>}
-            .range(-far, far, "unit")
+            .range(-far, far, length_unit)
             .array_of(2)
             .of(along_a_probe | bit(FeatureKind::angle))
             .needed(),
         Key{"feature", "to", KeyType::numbers, "end of the probe, or of the first edge", load_point<&F::to>,
             show_point<&F::to>}
-            .range(-far, far, "unit")
+            .range(-far, far, length_unit)
             .array_of(2)
             .of(along_a_probe | bit(FeatureKind::angle))
             .needed(),
         Key{"feature", "second_from", KeyType::numbers, "start of the second edge",
             load_point<&F::second_from>, show_point<&F::second_from>}
-            .range(-far, far, "unit")
+            .range(-far, far, length_unit)
             .array_of(2)
             .of(bit(FeatureKind::angle))
             .needed(),
         Key{"feature", "second_to", KeyType::numbers, "end of the second edge", load_point<&F::second_to>,
             show_point<&F::second_to>}
-            .range(-far, far, "unit")
+            .range(-far, far, length_unit)
             .array_of(2)
             .of(bit(FeatureKind::angle))
             .needed(),
         Key{"feature", "centre", KeyType::numbers, "expected centre", load_point<&F::centre>,
             show_point<&F::centre>}
-            .range(-far, far, "unit")
+            .range(-far, far, length_unit)
             .array_of(2)
             .of(around_a_place)
             .needed(),
         Key{"feature", "radius", KeyType::decimal, "expected radius", load_feature<&F::radius>,
             show_feature<&F::radius>}
-            .range(1, far, "unit")
+            .range(1, far, length_unit)
             .of(bit(FeatureKind::diameter))
             .needed(),
         Key{"feature", "search", KeyType::decimal, "how far from the expected edge or place is looked",
             load_feature<&F::search>, show_feature<&F::search>}
-            .range(1, far, "unit")
+            .range(1, far, length_unit)
             .of(around_a_place | bit(FeatureKind::angle))
             .needed(),
         Key{"feature", "lines", KeyType::integer, "parallel lines, a pixel apart, that are averaged",
@@ -279,6 +283,11 @@ inline const auto& recipe_keys() {
             show_feature<&F::probes>}
             .range(3, Feature::max_probes)
             .of(along_a_contour),
+        Key{"feature", "smoothing", KeyType::integer,
+            "along the probes; more for blur and noise, less for close edges", load_feature<&F::smoothing>,
+            show_feature<&F::smoothing>}
+            .range(1, max_probe_smoothing, "px")
+            .of(with_edges),
         Key{"feature", "contrast_min", KeyType::integer,
             "least step of an edge; 0 is a quarter of the outline's", load_feature<&F::contrast_min>,
             show_feature<&F::contrast_min>}
@@ -294,15 +303,15 @@ inline const auto& recipe_keys() {
             .of(bit(FeatureKind::distance)),
         Key{"feature", "nominal", KeyType::decimal, "the value wanted", load_tolerance<&T::nominal>,
             show_tolerance<&T::nominal>}
-            .range(-far, far, "unit, degrees or a count")
+            .range(-far, far, value_unit)
             .needed(),
         Key{"feature", "minus", KeyType::decimal, "how far below it is still OK", load_tolerance<&T::minus>,
             show_tolerance<&T::minus>}
-            .range(0, far)
+            .range(0, far, value_unit)
             .needed(),
         Key{"feature", "plus", KeyType::decimal, "how far above it is still OK", load_tolerance<&T::plus>,
             show_tolerance<&T::plus>}
-            .range(0, far)
+            .range(0, far, value_unit)
             .needed(),
     };
     return keys;

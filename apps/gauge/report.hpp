@@ -40,6 +40,12 @@ inline const char* name_of(Verdict verdict) {
     return "unmeasured";
 }
 
+/// The standard deviation of a variance.
+inline FinePixel root_of(SquarePixels variance) {
+    return FinePixel::from_raw(
+        static_cast<std::int32_t>(isqrt(static_cast<std::uint64_t>(variance.raw()) << 16)));
+}
+
 /// Why a feature has no value, for people.
 inline std::string reason_of(const FeatureResult& result, const Feature& feature) {
     switch (result.status) {
@@ -119,6 +125,8 @@ inline std::string json_part(const std::string& image, int index, const PartResu
                 ",\"minus\":" + number(feature.tolerance.minus, places) +
                 ",\"plus\":" + number(feature.tolerance.plus, places) + ",\"verdict\":\"" +
                 name_of(result.verdict) + "\"";
+        if (measured && result.measurement.blur.raw() > 0)
+            text += ",\"blur_px\":" + number(decimal_of(root_of(result.measurement.blur)), 2);
         if (!measured) text += ",\"reason\":" + json_string(reason_of(result, feature));
         text += "}";
     }

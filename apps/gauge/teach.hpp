@@ -54,25 +54,14 @@ public:
         pixel_ = std::max(scale.x_per_pixel, scale.y_per_pixel);
     }
 
+    /// Proposes twice: the first time finds out how blurred the edges are.
     Recipe propose() {
-        const Sample& first = samples_.parts.front();
-        outline_ = outline_of(first, frame_of(first));
-        // No sample may reach beyond a probe that the first one sets.
-        for (const Sample& sample : samples_.parts) {
-            const Extent other = outline_of(sample, frame_of(sample)).extent;
-            extent_.left = std::min(extent_.left, other.left);
-            extent_.right = std::max(extent_.right, other.right);
-            extent_.top = std::min(extent_.top, other.top);
-            extent_.bottom = std::max(extent_.bottom, other.bottom);
+        for (const int start : {1, 4, 8}) {
+            propose_with(start);
+            if (blur_of_features().raw() > 0) break;
         }
-        edges_ = straight_edges(outline_, pixel_);
-        if (!propose_round()) {
-            propose_parallel();
-            if (!has_feature("length")) propose_length();
-            if (!has_feature("width_1")) propose_widths();
-            propose_angles();
-        }
-        propose_holes();
+        blur_ = blur_of_features();
+        propose_with(1);
         return recipe_;
     }
     const std::vector<std::string>& notes() const { return notes_; }
@@ -89,6 +78,54 @@ public:
     }
 
 private:
+    void propose_with(int smoothing) {
+        recipe_.features.clear();
+        notes_.clear();
+        start_ = smoothing;
+        propose_all();
+    }
+    /// The middle one of the blurs at the features of the first sample.
+    SquarePixels blur_of_features() const {
+        std::vector<SquarePixels> found;
+        for (const Feature& feature : recipe_.features) {
+            const Result<Measurement> measured = measure(samples_.parts.front(), feature);
+            if (measured && measured->blur.raw() > 0) found.push_back(measured->blur);
+        }
+        if (found.empty()) return {};
+        return median(Span<SquarePixels>(found.data(), static_cast<std::ptrdiff_t>(found.size())));
+    }
+    /// The largest power of two up to one and a half times the blur, and to an eighth of the length: the
+    /// noise falls with it, but edges must not reach into each other.
+    int smoothing_for(std::int64_t length) const {
+        int smoothing = start_;
+        while (smoothing < 8 &&
+               blur_.raw() * 9 / 4 > SquarePixels::from_int(4 * smoothing * smoothing).raw() &&
+               length > 16 * smoothing * pixel_)
+            smoothing *= 2;
+        return smoothing;
+    }
+
+    void propose_all() {
+        const Sample& first = samples_.parts.front();
+        outline_ = outline_of(first, frame_of(first));
+        // No sample may reach beyond a probe that the first one sets.
+        for (const Sample& sample : samples_.parts) {
+            const Extent other = outline_of(sample, frame_of(sample)).extent;
+            extent_.left = std::min(extent_.left, other.left);
+            extent_.right = std::max(extent_.right, other.right);
+            extent_.top = std::min(extent_.top, other.top);
+            extent_.bottom = std::max(extent_.bottom, other.bottom);
+        }
+        edges_ = straight_edges(outline_, recipe_.scale);
+        if (!propose_round()) {
+            propose_parallel();
+            if (!has_feature("length")) propose_length();
+            if (!has_feature("width_1")) propose_widths();
+            propose_angles();
+        }
+        propose_holes();
+    }
+
     PartFrame frame_of(const Sample& sample) const {
         return pose_of(sample.moments, recipe_.locate, recipe_.scale).frame;
     }
@@ -103,9 +140,24 @@ private:
         return measure_feature(view, feature, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())});
     }
 
+    /// The length between the edges of a feature, as far as it is known before it is measured.
+    std::int64_t length_in(const Feature& feature) const {
+        switch (feature.kind) {
+            case FeatureKind::distance:
+            case FeatureKind::width: return length_of(feature.to - feature.from) - 12 * pixel_;
+            case FeatureKind::diameter: return 2 * feature.radius;
+            case FeatureKind::hole_diameter: return 2 * feature.search;
+            case FeatureKind::angle: return 4 * feature.search;
+            case FeatureKind::hole_count:
+            case FeatureKind::position: break;
+        }
+        return 0;
+    }
+
     /// Adds a feature with its nominal value and tolerances, unless a sample refuses it.
     bool add(Feature feature, const std::string& name) {
         copy_name(feature.name, name);
+        feature.smoothing = smoothing_for(length_in(feature));
         const std::vector<std::int64_t> values = values_of(feature);
         if (values.empty()) return false;
         std::int64_t sum = 0;
@@ -184,6 +236,7 @@ private:
         feature.from = place((first + last) / 2, -margin);
         feature.to = place((first + last) / 2, far_side + margin);
         feature.lines = static_cast<int>(std::clamp<std::int64_t>((last - first) / pixel_ / 2, 1, 25));
+        feature.smoothing = smoothing_for(length_in(feature));
         return feature;
     }
     static std::int64_t dot(PartPoint vector, Unit x, Unit y) {
@@ -232,6 +285,7 @@ private:
         feature.from = along_axis ? PartPoint{box.left - margin, y} : PartPoint{x, box.top - margin};
         feature.to = along_axis ? PartPoint{box.right + margin, y} : PartPoint{x, box.bottom + margin};
         feature.lines = 9;
+        feature.smoothing = smoothing_for(length_in(feature));
         return feature;
     }
     /// How much the value changes when the probe moves two pixels sideways: 0 where both edges are square to
@@ -345,6 +399,8 @@ private:
     Extent extent_;  ///< of all samples
     std::vector<Stretch> edges_;
     std::int64_t pixel_ = 0;
+    SquarePixels blur_;  ///< of the edges, once it is known
+    int start_ = 1;      ///< the least smoothing
     std::vector<std::string> notes_;
 };
 

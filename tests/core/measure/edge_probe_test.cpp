@@ -131,6 +131,32 @@ TEST(EdgeProbe, AveragesNoiseOverParallelLines) {
     }
 }
 
+TEST(EdgeProbe, SmoothingSteadiesABlurredEdge) {
+    Random random(85);
+    for (const int smoothing : {1, 2, 4}) {
+        double squares = 0;
+        for (int i = 0; i < 100; ++i) {
+            const double offset = uniform(random, -1, 1);
+            const GuardedImage<Gray8> image = straight_edge(0.3, offset, 3, 4, random);
+            const double c = std::cos(0.3);
+            const double s = std::sin(0.3);
+            EdgeProbe line = along(32 - 26 * c, 32 - 26 * s, 32 + 26 * c, 32 + 26 * s, 9);
+            line.smoothing = smoothing;
+            const Probed probed = probe(image.view(), line, 20);
+            ASSERT_EQ(probed.edges.size(), 1u) << smoothing;
+            const Edge& edge = probed.edges[0];
+            const double error = (real(edge.place.x) - 32) * c + (real(edge.place.y) - 32) * s - offset;
+            squares += error * error / 100;
+        }
+        // As position_noise(), with the smoothing s for 1 px: s^(-5/2) of the noise, and s^2 in the variance.
+        // From 4 samples in the smoothing the pixels are used less evenly: a third more.
+        const double spread = std::sqrt(9 + 1 / 12.0 + 1 / 6.0 + smoothing * smoothing);
+        const double expected = 4 * 0.46 * std::pow(smoothing, -2.5) * std::sqrt(2 * pi) *
+                                std::pow(spread, 3) / 190 / std::sqrt(9.0);
+        EXPECT_LT(std::sqrt(squares), 1.33 * expected) << "smoothing " << smoothing;
+    }
+}
+
 TEST(EdgeProbe, TellsTheBlurOfTheImageToATenth) {
     for (const double blur : {0.7, 1.0, 1.5, 2.0, 3.0}) {
         double mean = 0;
@@ -224,6 +250,9 @@ TEST(EdgeProbe, SaysWhatIsWrongAndLeavesTheList) {
     EXPECT_EQ(edge_probe(image.view(), good, GrayLevel(), enough, edges), Status::bad_argument);
     EXPECT_EQ(with([](EdgeProbe& p) { p.lines = 0; }), Status::bad_argument);
     EXPECT_EQ(with([](EdgeProbe& p) { p.lines = 256; }), Status::bad_argument);
+    EXPECT_EQ(with([](EdgeProbe& p) { p.smoothing = 0; }), Status::bad_argument);
+    EXPECT_EQ(with([](EdgeProbe& p) { p.smoothing = 17; }), Status::bad_argument);
+    EXPECT_EQ(with([](EdgeProbe& p) { p.smoothing = 16; }), Status::bad_argument) << "longer than the probe";
     EXPECT_EQ(with([](EdgeProbe& p) { p.to = p.from; }), Status::bad_argument);
     EXPECT_EQ(with([](EdgeProbe& p) { p.to.x = fine(19.1); }), Status::out_of_range);
     EXPECT_EQ(with([](EdgeProbe& p) { p.from.y = fine(-1); }), Status::out_of_range);

@@ -35,7 +35,8 @@ namespace fovea {
 struct Measurement {
     static constexpr int max_marks = 4;
 
-    Decimal value;  ///< in the unit of the recipe; degrees of an angle; a number of holes
+    Decimal value;      ///< in the unit of the recipe; degrees of an angle; a number of holes
+    SquarePixels blur;  ///< variance of the blur across the edges that were used; 0 where there are none
     FinePoint marks[max_marks];
     int mark_count = 0;
 };
@@ -149,7 +150,7 @@ inline Result<Span<const Edge>> FeatureMeter::probe(PartPoint from, PartPoint to
     const Result<FinePoint> beside =
         part_.frame.to_image(from + square_to(to - from, part_.scale.x_per_pixel));
     if (!start || !end || !beside) return Status::out_of_range;
-    EdgeProbe line{*start, *end, {beside->x - start->x, beside->y - start->y}, lines};
+    EdgeProbe line{*start, *end, {beside->x - start->x, beside->y - start->y}, lines, feature_.smoothing};
     ListView<Edge> edges(edges_.data(), max_probe_edges, &edge_count_);
     if (Status s = edge_probe(part_.image, line, strength_min(), profile_, edges); s != Status::ok) return s;
     return Span<const Edge>(edges.span());
@@ -170,6 +171,7 @@ inline Result<Measurement> FeatureMeter::between_edges(const Edge& first, const 
     const std::int64_t share = std::int64_t{second.share.raw()} - first.share.raw();
     const std::int64_t length = length_of(feature_.to - feature_.from);
     result.value.millionths = multiply_divide(length, share < 0 ? -share : share, Unit::one);
+    result.blur = SquarePixels::from_raw(first.blur.raw() / 2 + second.blur.raw() / 2);
     result.marks[0] = first.place;
     result.marks[1] = second.place;
     result.mark_count = 2;
@@ -259,6 +261,7 @@ inline Result<Measurement> FeatureMeter::circle(PartPoint centre, std::int64_t r
         radius = multiply_divide(fit->circle.radius.raw(), part_.scale.x_per_pixel, FinePixel::one);
         result.value.millionths = multiply_divide(2 * std::int64_t{fit->circle.radius.raw()},
                                                   part_.scale.x_per_pixel, FinePixel::one);
+        result.blur = median(blurs_.first(point_count_));
         result.marks[0] = place;
         result.mark_count = 1;
     }
@@ -325,6 +328,7 @@ inline Result<FineAngle> FeatureMeter::probe_line(PartPoint from, PartPoint to, 
     const Result<LineFit> fit = fit_line_robust(points_.first(point_count_), residuals_.first(point_count_));
     if (!fit) return fit.status();
     if (fit->used < maximum(3, feature_.probes / 2)) return Status::not_found;
+    marks.blur = median(blurs_.first(point_count_));
     marks.marks[marks.mark_count++] = unsquared(points_[0]);
     marks.marks[marks.mark_count++] = unsquared(points_[point_count_ - 1]);
     const PartPoint way = to - from;

@@ -57,10 +57,10 @@ struct Rectangle {
 
     constexpr bool empty() const { return width <= 0 || height <= 0; }
     constexpr Size size() const { return {width, height}; }
-    constexpr int right() const { return x + width - 1; }
-    constexpr int bottom() const { return y + height - 1; }
+    constexpr int right() const { return x + (width - 1); }
+    constexpr int bottom() const { return y + (height - 1); }
     constexpr bool contains(Point p) const {
-        return p.x >= x && p.x <= right() && p.y >= y && p.y <= bottom();
+        return p.x >= x && std::int64_t{p.x} - x < width && p.y >= y && std::int64_t{p.y} - y < height;
     }
     friend constexpr bool operator==(Rectangle a, Rectangle b) {
         return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;

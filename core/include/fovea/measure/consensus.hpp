@@ -90,9 +90,14 @@ Result<Consensus<Model>> least_median(Span<const FinePoint> points, Make make, D
         for (int k = 0; k < SampleSize; ++k) sample[k] = points[chosen[k]];
         const Result<Model> model = make(Span<const FinePoint>(sample, SampleSize));
         if (!model) continue;
-        for (std::ptrdiff_t k = 0; k < points.size(); ++k) scratch[k] = distance(*model, points[k]);
+        // A model whose larger half of the distances is not less than the best median cannot be better.
+        std::ptrdiff_t may_exceed = found ? points.size() / 2 : points.size();
+        for (std::ptrdiff_t k = 0; k < points.size() && may_exceed >= 0; ++k) {
+            scratch[k] = distance(*model, points[k]);
+            if (found && scratch[k] >= best.limit) --may_exceed;
+        }
+        if (may_exceed < 0) continue;
         const FinePixel middle = median(scratch.first(points.size()));
-        if (found && middle >= best.limit) continue;
         found = true;
         best = {*model, middle};
     }

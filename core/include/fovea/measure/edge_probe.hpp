@@ -23,8 +23,10 @@ namespace fovea {
 struct EdgeProbe {
     FinePoint from;
     FinePoint to;
-    FinePoint across;  ///< from one parallel line to the next, in the image
-    int lines = 1;     ///< how many are averaged, half of them on either side; 1..max_probe_lines
+    FinePoint across;   ///< from one parallel line to the next, in the image
+    int lines = 1;      ///< how many are averaged, half of them on either side; 1..max_probe_lines
+    int smoothing = 1;  ///< along the probe, in pixels: more for a blurred or noisy image, less where edges
+                        ///< lie close together; 1..max_probe_smoothing
 };
 
 /// A squared length in square pixels.
@@ -36,10 +38,11 @@ struct Edge {
     Unit share;          ///< of the way from `from` to `to`, 0 to 1
     GrayLevel strength;  ///< grey levels from before to behind, of an ideally sharp edge that is as steep
                          ///< after the probe's own smoothing: positive where it gets brighter
-    SquarePixels blur;   ///< variance of the blur of the image across the edge, 0..64 px^2
+    SquarePixels blur;   ///< variance of the blur of the image across the edge, up to 64 smoothing^2 px^2
 };
 
 inline constexpr int max_probe_lines = 255;
+inline constexpr int max_probe_smoothing = 16;
 
 /// The largest number of samples of a probe in an image of this size, beyond its ends too: scratch for
 /// edge_probe().
@@ -47,16 +50,19 @@ constexpr int edge_probe_scratch(Size size);
 
 /// Finds the edges along a probe, in their order from `from` to `to`.
 ///
-/// The brightness is sampled bilinearly four times a pixel, averaged over the parallel lines, and
-/// differentiated with the derivative of a Gaussian of about 1 px. The extremes of the derivative are the
-/// edges; a parabola through three samples gives the fraction.
+/// The brightness is sampled bilinearly, four times in the length of the smoothing, averaged over the
+/// parallel lines, and differentiated with the derivative of a Gaussian of about that length. The extremes of
+/// the derivative are the edges; a parabola through three samples gives the fraction.
 ///
-/// Shapes    src 1x1 or larger; the probe 1 px or longer
+/// Shapes    src 1x1 or larger; the probe as long as the smoothing or longer
 /// Units     strength_min in grey levels, more than 0: an edge below it is noise
-/// Rounding  place to 1/65536 px; the error of the parabola is below 0.002 px
-/// Border    samples up to 3 px beyond the ends are used; outside the image the outermost ones repeat
+/// Rounding  place to 1/65536 px; the error of the parabola is below 0.002 times the smoothing
+/// Border    samples up to 4 times the smoothing beyond the ends are used; outside the image the outermost
+///           ones repeat
 /// Scratch   samples of 1/256 grey level, undefined afterwards
-/// Errors    empty_image; bad_argument for a probe shorter than a pixel, lines or strength_min out of range;
+/// Errors    empty_image; bad_argument for a probe shorter than its smoothing, lines, smoothing or
+/// strength_min out of
+///           range;
 ///           out_of_range if an end of any of the lines is outside the image; scratch_too_small;
 ///           capacity_exceeded with the strongest edges in the list
 /// Source    book eq. 6.9, applied to the derivative; Canny, "A Computational Approach to Edge Detection",
@@ -68,11 +74,12 @@ inline Status edge_probe(ImageView<const Gray8> src, const EdgeProbe& probe, Gra
 
 namespace detail {
 
-inline constexpr int probe_samples_per_pixel = 4;
+/// Samples in the length of the smoothing.
+inline constexpr int probe_samples = 4;
 /// Samples beyond either end of a probe: the reach of the derivative, and of the blur that looks 1 px
 /// farther.
 inline constexpr int probe_reach = 12;
-inline constexpr int probe_margin = probe_reach + probe_samples_per_pixel;
+inline constexpr int probe_margin = probe_reach + probe_samples;
 
 /// k exp(-k^2 / 32) for k = 1..12, scaled to the sum 4096: the derivative of a Gaussian of 4 samples. A step
 /// of height h at the middle gives h.
@@ -86,19 +93,9 @@ constexpr std::int32_t derivative_sum() {
 }
 static_assert(derivative_sum() == 1 << derivative_bits, "a step must keep its height");
 
-/// The variance of the smoothing in samples^2, in 1/65536: the sum of j^2 s(j) for the smoothing kernel s
-/// whose difference the weights are; s(j - 1/2) = (w(j) + w(j+1) + ...) / 2 / sum of k w(k).
-constexpr std::int64_t derivative_variance() {
-    std::int64_t mass = 0;
-    std::int64_t spread = 0;  // in quarters
-    for (int j = 1; j <= probe_reach; ++j) {
-        std::int64_t tail = 0;
-        for (int k = j; k <= probe_reach; ++k) tail += derivative_weights[k - 1];
-        mass += tail;
-        spread += tail * (2 * j - 1) * (2 * j - 1);
-    }
-    return spread * 65536 / (4 * mass);
-}
+/// The variance of that Gaussian in samples^2, in 1/65536. Near its extreme, where the blur is read off, the
+/// response is that of the whole Gaussian, though its weights end at three deviations.
+inline constexpr std::int64_t derivative_variance = std::int64_t{probe_samples * probe_samples} << 16;
 
 /// The sampled brightness along a probe, in 1/256 grey level; element 0 lies probe_margin before `from`.
 class Profile {
@@ -106,8 +103,8 @@ public:
     Profile(Span<const std::uint16_t> samples, int steps) : samples_(samples), steps_(steps) {}
 
     int steps() const { return steps_; }
-    /// The smoothed derivative at a sample, in 1/65536 grey level; -probe_samples_per_pixel to steps() +
-    /// probe_samples_per_pixel.
+    /// The smoothed derivative at a sample, in 1/65536 grey level; -probe_samples to steps() +
+    /// probe_samples.
     std::int32_t derivative(int at) const {
         const std::uint16_t* middle = samples_.data() + at + probe_margin;
         std::int32_t sum = 0;  // at most 65280 * 4096 < 2^28
@@ -120,13 +117,13 @@ private:
     int steps_;
 };
 
-/// Length of a probe in samples, or 0 if it is shorter than a pixel.
+/// Length of a probe in samples, or 0 if it is shorter than its smoothing.
 inline int probe_steps(const EdgeProbe& probe) {
     const std::int64_t dx = std::int64_t{probe.to.x.raw()} - probe.from.x.raw();
     const std::int64_t dy = std::int64_t{probe.to.y.raw()} - probe.from.y.raw();
     const std::int64_t length = isqrt(magnitude(dx * dx + dy * dy));
-    if (length < FinePixel::one) return 0;
-    return static_cast<int>(round_shift(length * probe_samples_per_pixel, FinePixel::fraction_bits));
+    if (length < std::int64_t{FinePixel::one} * probe.smoothing) return 0;
+    return static_cast<int>(round_shift(length * probe_samples / probe.smoothing, FinePixel::fraction_bits));
 }
 
 /// The shift of line number `line` from the middle one.
@@ -175,11 +172,11 @@ inline void sample_probe(ImageView<const Gray8> src, const EdgeProbe& probe, int
     }
 }
 
-/// The variance of a Gaussian that falls from `peak` to the mean of its neighbours one pixel away, in
+/// The variance of a Gaussian that falls from `peak` to the mean of its neighbours probe_samples away, in
 /// samples^2 and 1/65536: h^2 / (2 u) with u = -ln(neighbours / peak), the logarithm by the series of the
 /// inverse hyperbolic tangent.
 inline std::int64_t gaussian_variance(std::int64_t peak, std::int64_t neighbours) {
-    constexpr std::int64_t most = std::int64_t{1} << 26;  // 1024 samples^2, 64 px^2
+    constexpr std::int64_t most = std::int64_t{1} << 26;  // 1024 samples^2
     if (neighbours >= peak) return most;
     if (neighbours <= 0) return 0;
     const std::int64_t z = ((peak - neighbours) << 16) / (peak + neighbours);
@@ -187,7 +184,7 @@ inline std::int64_t gaussian_variance(std::int64_t peak, std::int64_t neighbours
     const std::int64_t u =
         2 * (z + (z * (zz / 3 + (zz * zz >> 16) / 5 + (zz * zz >> 16) * zz / (7 * 65536)) >> 16));
     if (u == 0) return most;
-    constexpr std::int64_t square = probe_samples_per_pixel * probe_samples_per_pixel;
+    constexpr std::int64_t square = probe_samples * probe_samples;
     return minimum((square << 31) / u, most);
 }
 
@@ -205,8 +202,8 @@ inline Edge edge_at(const EdgeProbe& probe, const Profile& profile, int at) {
         clamp<std::int64_t>(at * 65536 + fraction, 0, std::int64_t{profile.steps()} * 65536);
 
     Edge edge;
-    const std::int64_t whole = std::int64_t{profile.steps()} * 65536;
-    edge.share = Unit::from_raw(static_cast<std::int32_t>(position * Unit::one / whole));
+    constexpr std::int64_t unit = Unit::one / 65536;
+    edge.share = Unit::from_raw(static_cast<std::int32_t>(position * unit / profile.steps()));
     const auto along = [&](FinePixel from, FinePixel to) {
         return from + FinePixel::from_raw(static_cast<std::int32_t>(
                           round_shift((std::int64_t{to.raw()} - from.raw()) * edge.share.raw(), 30)));
@@ -214,12 +211,14 @@ inline Edge edge_at(const EdgeProbe& probe, const Profile& profile, int at) {
     edge.place = {along(probe.from.x, probe.to.x), along(probe.from.y, probe.to.y)};
     edge.strength = GrayLevel::from_raw(static_cast<std::int32_t>(here));
 
-    const int pixel = probe_samples_per_pixel;
+    const int away = probe_samples;
     const std::int64_t sign = here < 0 ? -1 : 1;
-    const std::int64_t around = (profile.derivative(at - pixel) + profile.derivative(at + pixel)) * sign / 2;
-    const std::int64_t variance = gaussian_variance(here * sign, around) - derivative_variance();
-    edge.blur = SquarePixels::from_raw(
-        static_cast<std::int32_t>(maximum<std::int64_t>(variance, 0) / (pixel * pixel)));
+    const std::int64_t around = (profile.derivative(at - away) + profile.derivative(at + away)) * sign / 2;
+    const std::int64_t variance = gaussian_variance(here * sign, around) - derivative_variance;
+    // A sample is smoothing / probe_samples pixels.
+    const std::int64_t square = std::int64_t{probe.smoothing} * probe.smoothing;
+    edge.blur = SquarePixels::from_raw(static_cast<std::int32_t>(maximum<std::int64_t>(variance, 0) * square /
+                                                                 (probe_samples * probe_samples)));
     return edge;
 }
 
@@ -241,7 +240,7 @@ inline Status add_edge(const Edge& edge, ListView<Edge> edges) {
 
 constexpr int edge_probe_scratch(Size size) {
     // A line in the image is shorter than width + height.
-    return (size.width + size.height) * detail::probe_samples_per_pixel + 2 * detail::probe_margin + 2;
+    return (size.width + size.height) * detail::probe_samples + 2 * detail::probe_margin + 2;
 }
 
 inline Status edge_probe(ImageView<const Gray8> src, const EdgeProbe& probe, GrayLevel strength_min,
@@ -249,6 +248,7 @@ inline Status edge_probe(ImageView<const Gray8> src, const EdgeProbe& probe, Gra
     if (src.empty()) return Status::empty_image;
     if (probe.lines < 1 || probe.lines > max_probe_lines || strength_min.raw() <= 0)
         return Status::bad_argument;
+    if (probe.smoothing < 1 || probe.smoothing > max_probe_smoothing) return Status::bad_argument;
     if (!detail::probe_fits(src.size(), probe)) return Status::out_of_range;
     const int steps = detail::probe_steps(probe);
     if (steps == 0) return Status::bad_argument;

@@ -55,7 +55,7 @@ public:
     /// Millionths of a degree, rounded; any number of turns.
     static constexpr FineAngle from_microdegrees(std::int64_t microdegrees) {
         const std::int64_t turn = 360000000;
-        const std::int64_t part = microdegrees - floor_divide(microdegrees, turn) * turn;
+        const std::int64_t part = floor_modulo(microdegrees, turn);
         return from_raw(static_cast<std::uint32_t>(round_divide(part << 32, turn)));
     }
     constexpr std::uint32_t raw() const { return raw_; }
@@ -64,7 +64,7 @@ public:
     constexpr Angle coarse() const {
         return Angle::from_raw(static_cast<std::uint16_t>((raw_ + 0x8000u) >> 16));
     }
-    /// -180000000 up to 180000000 (excluded): millionths of a degree, rounded.
+    /// -180000000 to 180000000: millionths of a degree, rounded; just below half a turn gives 180000000.
     constexpr std::int32_t microdegrees() const {
         return static_cast<std::int32_t>(round_shift(std::int64_t{signed_raw()} * 360000000, 32));
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include <fovea/base/assert.hpp>
@@ -19,8 +20,8 @@ template <class Rep, int FractionBits>
 class Fixed {
 public:
     static_assert(std::is_integral_v<Rep> && std::is_signed_v<Rep>, "Fixed is made of a signed integer");
-    static_assert(FractionBits >= 0 && FractionBits < static_cast<int>(sizeof(Rep) * 8),
-                  "too many fraction bits");
+    static_assert(FractionBits >= 0 && FractionBits < static_cast<int>(sizeof(Rep) * 8) - 1,
+                  "too many fraction bits: 1 itself must fit");
 
     static constexpr int fraction_bits = FractionBits;
     static constexpr Rep one = static_cast<Rep>(static_cast<Rep>(1) << FractionBits);
@@ -42,20 +43,21 @@ public:
 
     constexpr Rep raw() const { return raw_; }
     constexpr int floor() const { return static_cast<int>(raw_ >> FractionBits); }
-    constexpr int round() const {
-        return static_cast<int>(round_shift(static_cast<std::int64_t>(raw_), FractionBits));
-    }
+    constexpr int round() const { return static_cast<int>(shifted_down(raw_, FractionBits)); }
 
     /// The same number in another format, rounded and saturated.
     template <class To>
     constexpr To convert() const {
+        using ToRep = decltype(To().raw());
         constexpr int drop = FractionBits - To::fraction_bits;
-        if constexpr (drop >= 0)
-            return To::from_raw(
-                saturate_cast<decltype(To().raw())>(round_shift(static_cast<std::int64_t>(raw_), drop)));
-        else
-            return To::from_raw(saturate_cast<decltype(To().raw())>(static_cast<std::int64_t>(raw_) *
-                                                                    (std::int64_t{1} << -drop)));
+        if constexpr (drop >= 0) {
+            return To::from_raw(saturate_cast<ToRep>(shifted_down(raw_, drop)));
+        } else {
+            constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() >> -drop;
+            if (raw_ > most) return To::from_raw(std::numeric_limits<ToRep>::max());
+            if (raw_ < -most - 1) return To::from_raw(std::numeric_limits<ToRep>::min());
+            return To::from_raw(saturate_cast<ToRep>(std::int64_t{raw_} * (std::int64_t{1} << -drop)));
+        }
     }
 
     friend constexpr Fixed operator+(Fixed a, Fixed b) { return from_raw(static_cast<Rep>(a.raw_ + b.raw_)); }
@@ -72,6 +74,11 @@ public:
     friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw_ >= b.raw_; }
 
 private:
+    /// round_shift() for numbers of 64 bits too: the half is added after the shift, as the bit that decides.
+    static constexpr std::int64_t shifted_down(std::int64_t value, int bits) {
+        return bits == 0 ? value : (value >> bits) + (value >> (bits - 1) & 1);
+    }
+
     Rep raw_ = 0;
 };
 

@@ -61,12 +61,19 @@ constexpr T floor_divide(T value, T divisor) {
     return static_cast<T>(value % divisor < 0 ? quotient - 1 : quotient);
 }
 
-/// Quotient to the nearest, ties toward plus infinity. divisor > 0; value + divisor / 2 must not overflow.
+/// value less its floor_divide() times divisor: 0..divisor-1. divisor > 0.
+template <class T>
+constexpr T floor_modulo(T value, T divisor) {
+    FOVEA_ASSERT(divisor > 0);
+    const T remainder = static_cast<T>(value % divisor);
+    return static_cast<T>(remainder < 0 ? remainder + divisor : remainder);
+}
+
+/// Quotient to the nearest, ties toward plus infinity. divisor > 0.
 template <class T>
 constexpr T round_divide(T value, T divisor) {
-    FOVEA_ASSERT(divisor > 0);
     const T quotient = floor_divide(value, divisor);
-    const T remainder = static_cast<T>(value - quotient * divisor);
+    const T remainder = floor_modulo(value, divisor);
     return static_cast<T>(remainder >= divisor - remainder ? quotient + 1 : quotient);
 }
 
@@ -74,34 +81,35 @@ constexpr T round_divide(T value, T divisor) {
 constexpr int leading_zeros(std::uint32_t value) { return value == 0 ? 32 : __builtin_clz(value); }
 constexpr int leading_zeros(std::uint64_t value) { return value == 0 ? 64 : __builtin_clzll(value); }
 
-/// The largest integer whose square is not above value: 16 or 32 exact steps, no division.
+/// The largest integer whose square is not above value.
+///
+/// Time    three divisions of 32 bits, or four with the last of 64
+/// Source  Newton's iteration, each step with as many bits as will be right; Dickinson's proof for math.isqrt
+/// of
+///         CPython: before the last correction the root is less than 1 off. All 2^32 values were tried, and
+///         the neighbours of all 2^32 squares
 constexpr std::uint32_t isqrt(std::uint32_t value) {
-    std::uint32_t root = 0;
-    std::uint32_t bit = 1u << 30;
-    while (bit > value) bit >>= 2;
-    for (; bit != 0; bit >>= 2) {
-        const std::uint32_t trial = root + bit;
-        root >>= 1;
-        if (value >= trial) {
-            value -= trial;
-            root += bit;
-        }
-    }
-    return root;
+    if (value == 0) return 0;
+    const int raise = leading_zeros(value) & ~1;
+    const std::uint32_t n = value << raise;  // 2^30 up to 2^32
+    std::uint32_t root = 1 + (n >> 30);
+    root = (root << 1) + (n >> 27) / root;
+    root = (root << 3) + (n >> 21) / root;
+    root = minimum<std::uint32_t>((root << 7) + (n >> 9) / root, 0xffff);
+    root -= root * root > n ? 1 : 0;
+    return root >> raise / 2;
 }
 constexpr std::uint32_t isqrt(std::uint64_t value) {
-    std::uint64_t root = 0;
-    std::uint64_t bit = std::uint64_t{1} << 62;
-    while (bit > value) bit >>= 2;
-    for (; bit != 0; bit >>= 2) {
-        const std::uint64_t trial = root + bit;
-        root >>= 1;
-        if (value >= trial) {
-            value -= trial;
-            root += bit;
-        }
-    }
-    return static_cast<std::uint32_t>(root);
+    if (value == 0) return 0;
+    const int raise = leading_zeros(value) & ~1;
+    const std::uint64_t n = value << raise;  // 2^62 up to 2^64
+    std::uint32_t root = 1 + static_cast<std::uint32_t>(n >> 62);
+    root = (root << 1) + static_cast<std::uint32_t>(n >> 59) / root;
+    root = (root << 3) + static_cast<std::uint32_t>(n >> 53) / root;
+    root = (root << 7) + static_cast<std::uint32_t>(n >> 41) / root;
+    const std::uint64_t last =
+        minimum<std::uint64_t>((std::uint64_t{root} << 15) + (n >> 17) / root, 0xffffffff);
+    return static_cast<std::uint32_t>((last - (last * last > n ? 1 : 0)) >> raise / 2);
 }
 
 /// The length of the vector (x, y), rounded down; to a relative 2^-28 where a side needs more than 31 bits.

@@ -111,7 +111,7 @@ constexpr FineAngle angle_of(std::int32_t x, std::int32_t y) {
         const std::int32_t(&coefficients)[6] = detail::arctangent_coefficients[tangent >> 29];
         const std::int32_t place = static_cast<std::int32_t>(tangent << 3 ^ 0x80000000u);
         const std::int32_t bend = multiply_high(detail::horner(coefficients, place), place);
-        angle = static_cast<std::uint32_t>(coefficients[0] + bend + 2) >> 2;
+        angle = (static_cast<std::uint32_t>(coefficients[0] + bend) + 2) >> 2;
     }
     if (steep) angle = 0x40000000u - angle;
     if (x < 0) angle = 0x80000000u - angle;

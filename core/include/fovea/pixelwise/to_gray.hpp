@@ -8,7 +8,8 @@
 #include <fovea/base/status.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
-#include <fovea/number/integer.hpp>
+#include <fovea/simd/isa.hpp>
+#include <fovea/simd/triples.hpp>
 
 namespace fovea {
 
@@ -27,7 +28,9 @@ constexpr Gray8 gray_of(Rgb888 colour);
 /// Overlap  none: dst must not share pixels with src
 /// Errors   empty_image, size_mismatch
 /// Source   book sec. 2.3.5
+inline namespace FOVEA_ISA {
 inline Status to_gray(ImageView<const Rgb888> src, ImageView<Gray8> dst);
+}  // namespace FOVEA_ISA
 
 /// The brightness that a YUYV (YUY2) camera sends: its luma, unchanged.
 ///
@@ -38,39 +41,39 @@ inline Status to_gray(ImageView<const Yuyv> src, ImageView<Gray8> dst);
 
 namespace detail {
 
-inline constexpr int gray_weight_bits = 15;
-inline constexpr std::int32_t red_weight = 9797;
-inline constexpr std::int32_t green_weight = 19235;
-inline constexpr std::int32_t blue_weight = 3736;
-static_assert(red_weight + green_weight + blue_weight == 1 << gray_weight_bits, "white must stay white");
+inline constexpr simd::TripleWeights gray_weights{9797, 19235, 3736};
+static_assert(gray_weights.first + gray_weights.second + gray_weights.third == 1 << 15,
+              "white must stay white");
 
-template <class Pixel, class Brightness>
-Status gray_frame(ImageView<const Pixel> src, ImageView<Gray8> dst, Brightness brightness) {
+/// row(src, width, dst) for every row.
+template <class Pixel, class Row>
+Status gray_frame(ImageView<const Pixel> src, ImageView<Gray8> dst, Row row) {
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
-    for (int y = 0; y < src.height(); ++y) {
-        const Pixel* from = src.row(y);
-        Gray8* to = dst.row(y);
-        for (int x = 0; x < src.width(); ++x) to[x] = brightness(from[x]);
-    }
+    for (int y = 0; y < src.height(); ++y) row(src.row(y), src.width(), dst.row(y));
     return Status::ok;
 }
 
 }  // namespace detail
 
 constexpr Gray8 gray_of(Rgb888 colour) {
-    return static_cast<Gray8>(round_shift(detail::red_weight * colour.red +
-                                              detail::green_weight * colour.green +
-                                              detail::blue_weight * colour.blue,
-                                          detail::gray_weight_bits));
+    return detail::gray_weights.mean(colour.red, colour.green, colour.blue);
 }
+
+inline namespace FOVEA_ISA {
 
 inline Status to_gray(ImageView<const Rgb888> src, ImageView<Gray8> dst) {
-    return detail::gray_frame(src, dst, [](Rgb888 colour) { return gray_of(colour); });
+    return detail::gray_frame(src, dst, [](const Rgb888* from, int width, Gray8* to) {
+        simd::weigh_triples(&from->red, width, detail::gray_weights, to);
+    });
 }
 
+}  // namespace FOVEA_ISA
+
 inline Status to_gray(ImageView<const Yuyv> src, ImageView<Gray8> dst) {
-    return detail::gray_frame(src, dst, [](Yuyv half) { return half.luma; });
+    return detail::gray_frame(src, dst, [](const Yuyv* from, int width, Gray8* to) {
+        for (int x = 0; x < width; ++x) to[x] = from[x].luma;
+    });
 }
 
 }  // namespace fovea

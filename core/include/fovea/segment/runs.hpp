@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/number/integer.hpp>
 
 namespace fovea {
 
@@ -47,6 +49,28 @@ private:
 
 // ---- Implementation ---------------------------------------------------------------
 
+namespace detail {
+
+/// As many pixels as the processor reads at once.
+using PixelWord = std::conditional_t<(sizeof(void*) >= 8), std::uint64_t, std::uint32_t>;
+inline constexpr int word_pixels = sizeof(PixelWord);
+
+/// How many of the first word_pixels pixels are like the first one: zero, or not zero.
+inline int pixels_alike(const std::uint8_t* first, bool region) {
+    constexpr PixelWord low = static_cast<PixelWord>(0x7f7f7f7f7f7f7f7f);
+    PixelWord word = 0;
+    std::memcpy(&word, first, sizeof word);
+    const PixelWord set = (((word & low) + low) | word) & ~low;  // the top bit of every byte that is not zero
+    const PixelWord other = region ? set ^ ~low : set;
+    if (other == 0) return word_pixels;
+    constexpr bool first_is_lowest = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+    return (first_is_lowest ? 8 * word_pixels - 1 - leading_zeros(other & (0 - other))
+                            : leading_zeros(other)) /
+           8;
+}
+
+}  // namespace detail
+
 inline Status RunRow::split(const std::uint8_t* row, int width) {
     count_ = 0;
     width_ = width;
@@ -55,13 +79,14 @@ inline Status RunRow::split(const std::uint8_t* row, int width) {
     for (int x = 0; x < width;) {
         if (count_ >= runs_.size()) return Status::capacity_exceeded;
         runs_[count_++] = {static_cast<std::uint16_t>(x), no_label};
-        // Eight pixels a step where they are all 0, or all 255.
-        const std::uint64_t plain = region ? ~std::uint64_t{0} : 0;
-        while (x < width && (row[x] != 0) == region) {
-            std::uint64_t eight = ~plain;
-            if (x + 8 <= width) std::memcpy(&eight, row + x, sizeof eight);
-            x += eight == plain ? 8 : 1;
+        int alike = detail::word_pixels;
+        while (alike == detail::word_pixels && x + detail::word_pixels <= width) {
+            alike = detail::pixels_alike(row + x, region);
+            x += alike;
         }
+        // What is left of the row is shorter than a word.
+        if (alike == detail::word_pixels)
+            while (x < width && (row[x] != 0) == region) ++x;
         region = !region;
     }
     return Status::ok;

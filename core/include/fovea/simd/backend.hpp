@@ -47,8 +47,10 @@ using RawSigned [[gnu::vector_size(FOVEA_BYTES)]] = std::int16_t;
 [[gnu::always_inline]] inline RawWords shift_left(RawWords a, int n) { return a << n; }
 [[gnu::always_inline]] inline RawWords shift_right(RawWords a, int n) { return a >> n; }
 [[gnu::always_inline]] inline RawWords absolute(RawWords a) {
+    // Negated as unsigned: -32768 stays what it is.
     const RawSigned value = bits_as<RawSigned>(a);
-    return bits_as<RawWords>(value > -value ? value : -value);
+    const RawSigned negated = bits_as<RawSigned>(RawWords{} - a);
+    return bits_as<RawWords>(value > negated ? value : negated);
 }
 [[gnu::always_inline]] inline RawWords at_most_255(RawWords a) {
     const RawWords limit = all_words(255);
@@ -91,9 +93,10 @@ using RawWords = std::uint32_t;
     return result;
 }
 [[gnu::always_inline]] inline RawWords at_most_255(RawWords a) {
-    RawWords result;
-    asm("usat16 %0, #8, %1" : "=r"(result) : "r"(a));
-    return result;
+    // a less what it exceeds 255 by. USAT16 would take a half above 32767 for a negative one.
+    RawWords excess;
+    asm("uqsub16 %0, %1, %2" : "=r"(excess) : "r"(a), "r"(all_words(255)));
+    return a - excess;
 }
 
 #else

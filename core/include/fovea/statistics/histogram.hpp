@@ -18,6 +18,7 @@ namespace fovea {
 /// How often each grey level occurs. An accumulator: it takes rows in any number of calls.
 ///
 /// Units   counts of pixels; at most 2^32 - 1 in all, so every image up to 65535 x 65535 fits
+/// Memory  1 KiB on 32-bit chips, 4 KiB elsewhere
 /// Source  book sec. 2.5.1
 class Histogram {
 public:
@@ -25,21 +26,37 @@ public:
 
     /// Adds the pixels of a row.
     constexpr void add_row(const Gray8* row, int width) {
-        for (int x = 0; x < width; ++x) ++counts_[row[x]];
+        int x = 0;
+        if constexpr (tables == 4)
+            for (; x + 4 <= width; x += 4) {
+                ++counts_[0][row[x]];
+                ++counts_[1][row[x + 1]];
+                ++counts_[2][row[x + 2]];
+                ++counts_[3][row[x + 3]];
+            }
+        for (; x < width; ++x) ++counts_[0][row[x]];
     }
     constexpr std::uint32_t operator[](int level) const {
         FOVEA_ASSERT(level >= 0 && level < levels);
-        return counts_[level];
+        std::uint32_t sum = 0;
+        for (const auto& table : counts_) sum += table[level];
+        return sum;
     }
     constexpr std::uint32_t total() const {
         std::uint32_t sum = 0;
-        for (const std::uint32_t count : counts_) sum += count;
+        for (int level = 0; level < levels; ++level) sum += (*this)[level];
         return sum;
     }
-    constexpr void clear() { *this = Histogram(); }
+    constexpr void clear() {
+        for (auto& table : counts_)
+            for (std::uint32_t& count : table) count = 0;
+    }
 
 private:
-    std::uint32_t counts_[levels]{};
+    // On processors with a long pipeline four tables take turns, so that a pixel does not wait until its like
+    // before it is counted. On chips 1 KiB is enough.
+    static constexpr int tables = sizeof(void*) >= 8 ? 4 : 1;
+    std::uint32_t counts_[tables][levels]{};
 };
 
 /// The histogram of a whole image.
