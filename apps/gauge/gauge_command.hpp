@@ -3,9 +3,11 @@
 // fovea gauge: measures the parts in pictures by a recipe.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include <fovea/codec/any_picture.hpp>
 #include <fovea/decision/gauge.hpp>
 
 #include <common/arguments.hpp>
@@ -24,7 +26,7 @@ inline Command gauge_help() {
     return {"gauge",
             "--job RECIPE IMAGE...",
             "Measures the parts in pictures by a recipe and says OK or not OK.",
-            {{"job", "RECIPE", "the recipe, a file that `fovea teach` made or you wrote; required"},
+            {{"job", "RECIPE", "the recipe, made by `fovea teach` or written by you;\nrequired"},
              {"json", "", "one JSON object a part instead of one line for people"},
              {"explain", "PICTURE",
               "write an annotated picture, PNG or PPM; of several\nimages, number n goes to "
@@ -50,36 +52,59 @@ inline Status gauge_picture(const Picture<Gray8>& image, const Recipe& recipe,
     return status;
 }
 
-/// Why an image has no judged part, for people.
-inline std::string gauge_problem(Status status) {
-    if (status == Status::ok) return "no part found: is `part` (dark or bright) right, and `area_min`?";
-    if (status == Status::degenerate) return "part and ground cannot be told apart: all pixels are alike";
-    return describe(status);
-}
+/// Why an image has no judged part, for people: what gauge_picture() answered, and what is there instead.
+inline std::string no_part_problem(const Picture<Gray8>& image, const Recipe& recipe, Status status);
 
 namespace detail {
+
+/// The largest region of the part's brightness, whatever its area; an empty one if there is none.
+inline Region largest_region(const Picture<Gray8>& image, LocateRule rule, bool at_border) {
+    rule.area_min = 1;
+    rule.area_max = LocateRule().area_max;
+    rule.at_border = at_border;
+    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(find_parts_scratch(image.size, rule)));
+    Threshold threshold;
+    Region region;
+    Hole hole;
+    int regions = 0;
+    int holes = 0;
+    // A list for one region keeps the largest, and says that there were more.
+    static_cast<void>(find_parts(image.view(), rule,
+                                 {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}, threshold,
+                                 ListView<Region>(&region, 1, &regions), ListView<Hole>(&hole, 1, &holes)));
+    return regions == 1 ? region : Region();
+}
 
 /// "a/b.png" and 2 make "a/b-2.png".
 inline std::string numbered(const std::string& name, std::size_t number) {
     const std::size_t dot = name.rfind('.');
     const std::size_t slash = name.rfind('/');
-    const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash + 1);
+    const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
+    const bool has_ending = dot != std::string::npos && dot > start;
     const std::string ending = has_ending ? name.substr(dot) : "";
     return name.substr(0, name.size() - ending.size()) + "-" + std::to_string(number) + ending;
 }
 
-/// Says on the error stream which features have no value and where the recipe asks for them.
+/// Says on the error stream what of a part has no value, and where the recipe asks for it.
 template <class Io>
-void complain_unmeasured(Io& io, const std::string& job, const RecipeFile& file, const std::string& image,
-                         std::size_t index, const PartResult& part) {
+void complain_unmeasured(Io& io, const std::string& job, const RecipeFile& file, const std::string& part_name,
+                         const PartResult& part) {
+    const Status orientation = part.pose.orientation;
+    if (orientation != Status::ok) {
+        io.complain(
+            part_name + ": " + orientation_problem(orientation) +
+            (orientation == Status::undecided
+                 ? "; it may be dirty, turned over or another part, or orientation = \"symmetric\" suits it"
+                 : "; orientation = \"none\" measures it as it lies"));
+        return;
+    }
     for (int i = 0; i < part.feature_count; ++i) {
         const FeatureResult& result = part.features[i];
         if (result.status == Status::ok) continue;
         const TextPlace place = file.feature_places[static_cast<std::size_t>(i)];
         io.complain(job + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " +
                     text_of(file.recipe.features[i].name) + ": " +
-                    reason_of(result, file.recipe.features[i]) + " (" + image + " part " +
-                    std::to_string(index) + ")");
+                    reason_of(result, file.recipe.features[i]) + " (" + part_name + ")");
     }
 }
 
@@ -89,15 +114,21 @@ ExitCode gauge_image(Io& io, const std::string& job, const RecipeFile& file, con
     Picture<Gray8> image;
     std::string problem;
     std::vector<PartResult> parts;
+    ExitCode code = exit_ok;
     if (load_gray(io.storage(), name, image, problem)) {
         const Status status = gauge_picture(image, file.recipe, parts);
-        if (status == Status::capacity_exceeded)
-            io.complain(name + ": more than " + std::to_string(max_parts) +
-                        " parts; the largest are measured");
-        else if (status != Status::ok || parts.empty())
-            problem = name + ": " + gauge_problem(status);
+        if (status == Status::capacity_exceeded) {
+            // What was left out was not judged.
+            code = exit_failed;
+            io.complain(name + ": " +
+                        (parts.size() == max_parts
+                             ? "more than " + std::to_string(max_parts) + " parts; the largest are measured"
+                             : "more holes than there is room for; raise `hole_area_min`"));
+        } else if (status != Status::ok || parts.empty()) {
+            problem = name + ": " + no_part_problem(image, file.recipe, status);
+        }
     }
-    ExitCode code = parts.empty() ? exit_failed : exit_ok;
+    if (parts.empty()) code = exit_failed;
     if (!problem.empty()) {
         io.complain(problem);
         if (json) io.print(json_no_part(name, problem));
@@ -107,7 +138,7 @@ ExitCode gauge_image(Io& io, const std::string& job, const RecipeFile& file, con
         const int index = static_cast<int>(i);
         io.print(json ? json_part(name, index, part, file.recipe)
                       : human_part(name, index, part, file.recipe));
-        complain_unmeasured(io, job, file, name, i, part);
+        complain_unmeasured(io, job, file, name + " part " + std::to_string(i), part);
         code = worse(code, part.verdict == Verdict::ok       ? exit_ok
                            : part.verdict == Verdict::not_ok ? exit_not_ok
                                                              : exit_failed);
@@ -121,6 +152,27 @@ ExitCode gauge_image(Io& io, const std::string& job, const RecipeFile& file, con
 }
 
 }  // namespace detail
+
+inline std::string no_part_problem(const Picture<Gray8>& image, const Recipe& recipe, Status status) {
+    const LocateRule& rule = recipe.locate;
+    if (status == Status::degenerate)
+        return std::string("part and ground cannot be told apart: all pixels are ") +
+               (rule.threshold == ThresholdRule::otsu ? "alike" : "on one side of the threshold");
+    if (status != Status::ok) return describe(status);
+    const Region whole = detail::largest_region(image, rule, rule.at_border);
+    const Region any = detail::largest_region(image, rule, true);
+    const std::string kind = rule.dark_part ? "dark" : "bright";
+    const auto pixels = [](const Region& region) { return std::to_string(region.moments.area()) + " px"; };
+    std::string text = "no part found: ";
+    if (any.moments.area() == 0) return text + "`opening` clears everything that is " + kind;
+    if (whole.moments.area() < rule.area_min && any.moments.area() > whole.moments.area())
+        return text + "the largest " + kind + " region, " + pixels(any) +
+               ", touches the border; does the part lie whole in the picture, and is `part` right?";
+    text += "the largest " + kind + " region has " + pixels(whole);
+    if (whole.moments.area() < rule.area_min)
+        return text + ", and `area_min` is " + std::to_string(rule.area_min);
+    return text + ", and `area_max` is " + std::to_string(rule.area_max);
+}
 
 /// Runs the command with the words behind its name.
 template <class Io>
@@ -138,6 +190,17 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
     const std::string job = arguments.value("job");
     if (problem.empty() && job.empty()) problem = "which recipe? give --job RECIPE; `fovea teach` makes one";
     if (problem.empty() && arguments.operands().empty()) problem = "which picture? give at least one IMAGE";
+    const std::string explain_name = arguments.value("explain");
+    const std::vector<std::string>& images = arguments.operands();
+    const auto picture_of = [&](std::size_t i) {
+        return explain_name.empty() || images.size() == 1 ? explain_name : detail::numbered(explain_name, i);
+    };
+    if (problem.empty() && explain_name == "-")
+        problem = "--explain writes a file; the standard output has the results";
+    for (std::size_t i = 0; problem.empty() && i < images.size(); ++i)
+        if (const std::string picture = picture_of(i);
+            picture == job || std::find(images.begin(), images.end(), picture) != images.end())
+            problem = "--explain would overwrite " + picture + "; give another name";
     if (!problem.empty()) {
         io.complain("fovea gauge: " + problem);
         return exit_failed;
@@ -147,20 +210,20 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
         io.complain(file_problem(job, text.status(), io.storage()));
         return exit_failed;
     }
+    if (picture_format(*text) != PictureFormat::unknown) {
+        io.complain(job + ": a picture, not a recipe; --job takes the file that `fovea teach` wrote");
+        return exit_failed;
+    }
     const RecipeFile file = read_recipe(std::string(text->begin(), text->end()));
     if (!file.problem.empty()) {
         io.complain(job + ":" + std::to_string(file.place.line) + ":" + std::to_string(file.place.column) +
                     ": " + file.problem);
         return exit_failed;
     }
-    const std::string explain_name = arguments.value("explain");
-    const std::vector<std::string>& images = arguments.operands();
     ExitCode code = exit_ok;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const std::string picture =
-            explain_name.empty() || images.size() == 1 ? explain_name : detail::numbered(explain_name, i);
-        code = worse(code, detail::gauge_image(io, job, file, images[i], picture, arguments.has("json")));
-    }
+    for (std::size_t i = 0; i < images.size(); ++i)
+        code =
+            worse(code, detail::gauge_image(io, job, file, images[i], picture_of(i), arguments.has("json")));
     return code;
 }
 

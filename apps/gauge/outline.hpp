@@ -79,6 +79,15 @@ inline Result<CircleFit> circle_of(const Outline& outline, const Scale& scale) {
 
 namespace detail {
 
+/// The length of a vector in a direction, and the vector of a length.
+inline std::int64_t along(PartPoint vector, UnitVector way) {
+    return multiply_divide(vector.x, way.x.raw(), Unit::one) +
+           multiply_divide(vector.y, way.y.raw(), Unit::one);
+}
+inline PartPoint stretched_by(UnitVector way, std::int64_t length) {
+    return {multiply_divide(length, way.x.raw(), Unit::one), multiply_divide(length, way.y.raw(), Unit::one)};
+}
+
 /// How far a point is from the line through two others.
 inline std::int64_t distance_from_chord(PartPoint point, PartPoint from, PartPoint to) {
     const PartPoint chord{to.x - from.x, to.y - from.y};
@@ -130,15 +139,9 @@ inline std::optional<Stretch> fitted_edge(const Outline& outline, std::size_t fi
         points.push_back(in_pixels(outline.points[i % count], scale));
     const Result<LineFit> fit = fit_line({points.data(), static_cast<std::ptrdiff_t>(points.size())});
     if (!fit) return {};
-    const UnitVector along = unit_vector(fit->line.direction);
+    const UnitVector way = unit_vector(fit->line.direction);
     const PartPoint centre = part_point(fit->line.point, scale);
-    const auto foot = [&](PartPoint point) {
-        const PartPoint way = point - centre;
-        const std::int64_t t = multiply_divide(way.x, along.x.raw(), Unit::one) +
-                               multiply_divide(way.y, along.y.raw(), Unit::one);
-        return centre + PartPoint{multiply_divide(t, along.x.raw(), Unit::one),
-                                  multiply_divide(t, along.y.raw(), Unit::one)};
-    };
+    const auto foot = [&](PartPoint point) { return centre + stretched_by(way, along(point - centre, way)); };
     return Stretch{foot(outline.points[first % count]), foot(outline.points[last % count])};
 }
 
@@ -164,6 +167,52 @@ inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& 
         if (edge) edges.push_back(*edge);
     }
     return edges;
+}
+
+/// How far an outline reaches in a direction, from its first point to its last.
+inline std::int64_t breadth_of(const Outline& outline, FineAngle direction) {
+    const UnitVector way = unit_vector(direction);
+    std::int64_t least = 0;
+    std::int64_t most = 0;
+    for (const PartPoint& point : outline.points) {
+        const std::int64_t at = detail::along(point, way);
+        least = &point == &outline.points.front() ? at : std::min(least, at);
+        most = &point == &outline.points.front() ? at : std::max(most, at);
+    }
+    return most - least;
+}
+
+/// A probe across two edges that face away from each other, some pixels longer than they are apart, in the
+/// middle of where they face; and how long that is.
+struct Facing {
+    PartPoint from;
+    PartPoint to;
+    std::int64_t breadth = 0;
+};
+
+/// Nothing if the edges are not parallel to a degree, or hardly face.
+inline std::optional<Facing> facing_edges(const Stretch& one, const Stretch& two, std::int64_t pixel) {
+    const std::int32_t off = (two.direction() - one.direction() - FineAngle::half_turn()).signed_raw();
+    if (magnitude(off) > 0x00b60b61u) return {};  // one degree
+    const UnitVector way = unit_vector(one.direction());
+    const UnitVector across = unit_vector(one.direction() + FineAngle::quarter_turn());
+    const std::int64_t first = std::max<std::int64_t>(0, detail::along(two.to - one.from, way));
+    const std::int64_t last =
+        std::min(detail::along(one.to - one.from, way), detail::along(two.from - one.from, way));
+    // The part lies to the right of its outline, clockwise on screen.
+    const std::int64_t far_side = detail::along(point_between(two.from, two.to, 1, 2) - one.from, across);
+    if (last - first < 20 * pixel || far_side < 4 * pixel) return {};
+    const PartPoint middle = one.from + detail::stretched_by(way, (first + last) / 2);
+    const std::int64_t margin = 6 * pixel;
+    return Facing{middle - detail::stretched_by(across, margin),
+                  middle + detail::stretched_by(across, far_side + margin), last - first};
+}
+
+/// True if moments are those of a disc, nearly: one of area A has second moments of A^2 / 2 pi together, any
+/// other shape has more.
+inline bool is_disc(const CentralMoments& moments) {
+    const std::int64_t sum = (moments.mu20 + moments.mu02).raw() / SecondMoment::one;
+    return Int128::product(sum, 710) < Int128::product(moments.area * 119 / 100, moments.area * 113);
 }
 
 }  // namespace fovea::apps

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include <fovea/decision/recipe.hpp>
+#include <fovea/measure/edge_probe.hpp>
 #include <fovea/morphology/morphology.hpp>
 
 namespace fovea::apps {

@@ -20,7 +20,7 @@ inline std::string unit_of(const Feature& feature, const Scale& scale) {
     return scale.unit == LengthUnit::millimetre ? "mm" : "px";
 }
 
-/// Places that show a hundredth of a pixel, and three of an angle.
+/// Places that show a hundredth of a pixel, and two of an angle.
 inline int places_of(const Feature& feature, const Scale& scale) {
     if (feature.kind == FeatureKind::hole_count) return 0;
     if (feature.kind == FeatureKind::angle) return 2;
@@ -46,12 +46,32 @@ inline FinePixel root_of(SquarePixels variance) {
         static_cast<std::int32_t>(isqrt(static_cast<std::uint64_t>(variance.raw()) << 16)));
 }
 
+/// "OK", "NOT OK" or "NOT JUDGED".
+inline const char* human_verdict(Verdict part) {
+    return part == Verdict::ok ? "OK" : part == Verdict::unmeasured ? "NOT JUDGED" : "NOT OK";
+}
+
+/// A limit of a tolerance; that of a count is shown as it was given.
+inline std::string shown_limit(Decimal value, const Feature& feature, int places) {
+    return feature.kind == FeatureKind::hole_count ? shortest(value) : number(value, places);
+}
+
+/// Why a part has no direction, and so no value for any of its features; "" if it has one.
+inline std::string orientation_problem(Status orientation) {
+    switch (orientation) {
+        case Status::ok: return "";
+        case Status::undecided: return "which end of the part is which is undecided";
+        case Status::degenerate: return "the part has no clear axis";
+        default: return describe(orientation);
+    }
+}
+
 /// Why a feature has no value, for people.
 inline std::string reason_of(const FeatureResult& result, const Feature& feature) {
     switch (result.status) {
         case Status::undecided: return "which end of the part is which is undecided";
         case Status::out_of_range: return "the probe leaves the image";
-        case Status::degenerate: return "no line, circle or axis follows from what is there";
+        case Status::degenerate: return "no line or circle follows from the edges that were found";
         case Status::capacity_exceeded: return "too many edges along the probe";
         case Status::bad_argument: return "the probe is shorter than a pixel";
         case Status::not_found: break;
@@ -62,37 +82,47 @@ inline std::string reason_of(const FeatureResult& result, const Feature& feature
         case FeatureKind::width: return "the probe does not cross the part";
         case FeatureKind::diameter:
         case FeatureKind::angle: return "less than half of the probes agree on an edge";
-        case FeatureKind::hole_diameter: return "no round hole there";
-        case FeatureKind::position: return "no hole there";
+        case FeatureKind::hole_diameter: return "no round hole within `search` of `centre`";
+        case FeatureKind::position: return "no hole within `search` of `centre`";
         case FeatureKind::hole_count: break;
     }
     return "nothing found";
+}
+
+/// The same of a feature of a part, whose direction may be the reason.
+inline std::string reason_of(const PartResult& part, int feature, const Recipe& recipe) {
+    const std::string problem = orientation_problem(part.pose.orientation);
+    return problem.empty() ? reason_of(part.features[feature], recipe.features[feature]) : problem;
 }
 
 /// "length 40.003 mm", with what is wrong behind it.
 inline std::string human_feature(const FeatureResult& result, const Feature& feature, const Scale& scale) {
     const std::string name = detail::text_of(feature.name);
     if (result.status != Status::ok) return name + " NOT MEASURED (" + reason_of(result, feature) + ")";
-    const int places = places_of(feature, scale);
-    const std::string unit = unit_of(feature, scale);
-    std::string text =
-        name + " " + number(result.measurement.value, places) + (unit.empty() ? "" : " ") + unit;
+    const Decimal value = result.measurement.value;
     const Tolerance& tolerance = feature.tolerance;
-    if (result.verdict == Verdict::low)
-        text += " LOW (least " + number(tolerance.nominal - tolerance.minus, places) + ")";
-    if (result.verdict == Verdict::high)
-        text += " HIGH (most " + number(tolerance.nominal + tolerance.plus, places) + ")";
+    const bool low = result.verdict == Verdict::low;
+    const bool high = result.verdict == Verdict::high;
+    const Decimal bound = low ? tolerance.nominal - tolerance.minus : tolerance.nominal + tolerance.plus;
+    int places = places_of(feature, scale);
+    // As many more as it takes to see that it is out.
+    while ((low || high) && places < 6 && number(value, places) == shown_limit(bound, feature, places))
+        ++places;
+    const std::string unit = unit_of(feature, scale);
+    std::string text = name + " " + number(value, places) + (unit.empty() ? "" : " ") + unit;
+    if (low) text += " LOW (least " + shown_limit(bound, feature, places) + ")";
+    if (high) text += " HIGH (most " + shown_limit(bound, feature, places) + ")";
     return text;
 }
 
 /// The line of a part.
 inline std::string human_part(const std::string& image, int index, const PartResult& part,
                               const Recipe& recipe) {
-    const char* verdict = part.verdict == Verdict::ok       ? "OK"
-                          : part.verdict == Verdict::not_ok ? "NOT OK"
-                                                            : "NOT JUDGED";
-    std::string text = image + " part " + std::to_string(index) + ": " + verdict;
-    for (int i = 0; i < part.feature_count; ++i)
+    std::string text =
+        one_line(image) + " part " + std::to_string(index) + ": " + human_verdict(part.verdict);
+    const std::string problem = orientation_problem(part.pose.orientation);
+    if (!problem.empty()) text += " (" + problem + ")";
+    for (int i = 0; problem.empty() && i < part.feature_count; ++i)
         text += (i == 0 ? "  " : ", ") + human_feature(part.features[i], recipe.features[i], recipe.scale);
     const PartFrame& frame = part.pose.frame;
     text += "  [x " + number(decimal_of(frame.origin().x), 2) + ", y " +
@@ -121,13 +151,13 @@ inline std::string json_part(const std::string& image, int index, const PartResu
         text += (i == 0 ? "{\"name\":" : ",{\"name\":") + json_string(detail::text_of(feature.name)) +
                 ",\"value\":" + (measured ? number(result.measurement.value, places) : "null") +
                 ",\"unit\":" + json_string(unit_of(feature, recipe.scale)) +
-                ",\"nominal\":" + number(feature.tolerance.nominal, places) +
-                ",\"minus\":" + number(feature.tolerance.minus, places) +
-                ",\"plus\":" + number(feature.tolerance.plus, places) + ",\"verdict\":\"" +
+                ",\"nominal\":" + shown_limit(feature.tolerance.nominal, feature, places) +
+                ",\"minus\":" + shown_limit(feature.tolerance.minus, feature, places) +
+                ",\"plus\":" + shown_limit(feature.tolerance.plus, feature, places) + ",\"verdict\":\"" +
                 name_of(result.verdict) + "\"";
         if (measured && result.measurement.blur.raw() > 0)
             text += ",\"blur_px\":" + number(decimal_of(root_of(result.measurement.blur)), 2);
-        if (!measured) text += ",\"reason\":" + json_string(reason_of(result, feature));
+        if (!measured) text += ",\"reason\":" + json_string(reason_of(part, i, recipe));
         text += "}";
     }
     return text + "],\"verdict\":\"" + name_of(part.verdict) + "\"}\n";

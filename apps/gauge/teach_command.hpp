@@ -3,6 +3,8 @@
 // fovea teach: proposes a recipe from pictures of good parts.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +29,9 @@ inline Command teach_help() {
               "the part's length along its axis, or its diameter: makes\nthe scale. Pictures of "
               "parts that lie along the rows and\nacross them make one for each direction"},
              {"mm-per-px", "MM", "the length of a pixel, if it is known"},
-             {"tolerance", "T", "allowed deviation of every length; half a pixel if not\ngiven"},
+             {"tolerance", "T",
+              "allowed deviation of every length, in mm if there is a\nscale, else in px; half a pixel if "
+              "not given"},
              {"explain", "PICTURE", "write the first picture with the proposal drawn in"}},
             "Parts must lie whole in the pictures; several parts in one picture are several samples.\n"
             "Nominal values are the means over all of them. Read the recipe before you rely on it:\n"
@@ -42,26 +46,27 @@ inline bool positive_option(const Arguments& arguments, const std::string& name,
     if (!arguments.has(name)) return true;
     const std::string text = arguments.value(name);
     const Result<Decimal> number = parse_decimal(span_of(text));
-    if (number && number->millionths > 0) {
+    if (number && number->millionths > 0 && number->millionths <= max_part_coordinate) {
         value = number->millionths;
         return true;
     }
-    problem = "--" + name + " takes a positive number such as 12.5, not '" + text + "'";
+    problem = "--" + name + " takes a positive number up to 100000 such as 12.5, not '" + text + "'";
     return false;
 }
 
 inline bool teach_options(const Arguments& arguments, TeachOptions& options, std::string& problem) {
     options.name = arguments.value("name");
-    if (options.name.size() > static_cast<std::size_t>(Feature::max_name)) {
-        problem = "--name takes at most " + std::to_string(Feature::max_name) + " bytes";
+    if (arguments.has("name") && !good_name(options.name)) {
+        problem =
+            "--name takes 1 to " + std::to_string(Feature::max_name) + " bytes without control characters";
         return false;
     }
     const std::string part = arguments.value("part");
-    if (!part.empty() && part != "dark" && part != "bright") {
+    if (arguments.has("part") && part != "dark" && part != "bright") {
         problem = "--part is dark or bright, not '" + part + "'";
         return false;
     }
-    if (!part.empty()) options.dark = part == "dark";
+    if (arguments.has("part")) options.dark = part == "dark";
     std::optional<std::int64_t> per_pixel;
     if (!positive_option(arguments, "known-length", options.known_length, problem) ||
         !positive_option(arguments, "mm-per-px", per_pixel, problem) ||
@@ -72,6 +77,22 @@ inline bool teach_options(const Arguments& arguments, TeachOptions& options, std
         problem = "--known-length and --mm-per-px both give the scale; give one";
     if (per_pixel && !scale_in_range(*options.scale)) problem = "--mm-per-px is from 0.00001 to 100";
     return problem.empty();
+}
+
+/// What is wrong with the names of the files to write; "" if nothing is.
+inline std::string overwritten(const Arguments& arguments) {
+    const std::vector<std::string>& pictures = arguments.operands();
+    const std::string explain_name = arguments.value("explain");
+    if (explain_name == "-") return "--explain writes a file; give it a name";
+    for (const char* option : {"out", "explain"}) {
+        const std::string name = arguments.value(option);
+        if (name != "-" && std::find(pictures.begin(), pictures.end(), name) != pictures.end())
+            return std::string("--") + option + " would overwrite the picture " + name +
+                   "; give another name";
+    }
+    if (!explain_name.empty() && explain_name == arguments.value("out"))
+        return "--explain would overwrite the recipe " + explain_name + "; give another name";
+    return "";
 }
 
 /// What was proposed, for people.
@@ -117,6 +138,7 @@ ExitCode teach_command(Io& io, const std::vector<std::string>& words) {
     if (problem.empty() && arguments.operands().empty())
         problem = "which picture? give at least one GOOD part";
     if (problem.empty()) detail::teach_options(arguments, options, problem);
+    if (problem.empty()) problem = detail::overwritten(arguments);
     if (!problem.empty()) {
         io.complain("fovea teach: " + problem);
         return exit_failed;
@@ -134,6 +156,10 @@ ExitCode teach_command(Io& io, const std::vector<std::string>& words) {
         return exit_failed;
     }
     const std::string text = write_recipe(taught.recipe);
+    if (const RecipeFile file = read_recipe(text); !file.problem.empty()) {
+        io.complain("fovea teach: the recipe would be out of range: " + file.problem);
+        return exit_failed;
+    }
     const Status saved = io.storage().save(out.c_str(), bytes_of(text));
     if (saved != Status::ok) {
         io.complain(file_problem(out, saved, io.storage()));

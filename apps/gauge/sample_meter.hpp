@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// SampleMeter: measures features on the good parts that a recipe is taught from.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <fovea/base/order.hpp>
+#include <fovea/decision/gauge.hpp>
+#include <fovea/decision/recipe.hpp>
+
+#include <gauge/samples.hpp>
+
+namespace fovea::apps {
+
+/// Measures by a rule and a scale. The samples must outlive it.
+class SampleMeter {
+public:
+    SampleMeter(const Samples& samples, const LocateRule& rule, const Scale& scale)
+        : samples_(samples), rule_(rule), scale_(scale) {}
+
+    PartFrame frame_of(const Sample& sample) const { return pose_of(sample.moments, rule_, scale_).frame; }
+    Result<Measurement> measure(const Sample& sample, const Feature& feature, FineAngle turn = {}) const {
+        const PartFrame frame = frame_of(sample);
+        std::vector<std::uint8_t> scratch(
+            static_cast<std::size_t>(measure_feature_scratch(sample.image->size)));
+        const PartView view{sample.image->view(),
+                            PartFrame(frame.origin(), frame.angle() + turn, scale_),
+                            &sample.region,
+                            {sample.holes.data(), static_cast<std::ptrdiff_t>(sample.holes.size())},
+                            rule_,
+                            sample.threshold,
+                            scale_};
+        return measure_feature(view, feature, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())});
+    }
+
+    /// The values of a feature on every sample, the part turned as it is or further; empty if one of them has
+    /// none.
+    std::vector<std::int64_t> values_of(const Feature& feature, FineAngle turn = {}) const {
+        std::vector<std::int64_t> values;
+        for (const Sample& sample : samples_.parts) {
+            const Result<Measurement> found = measure(sample, feature, turn);
+            if (!found) return {};
+            values.push_back(found->value.millionths);
+        }
+        return values;
+    }
+    /// The direction in the image in which a probe runs on every sample.
+    std::vector<FineAngle> directions_of(const Feature& feature) const {
+        std::vector<FineAngle> directions;
+        for (const Sample& sample : samples_.parts)
+            directions.push_back(frame_of(sample).angle() +
+                                 angle_of(feature.to.x - feature.from.x, feature.to.y - feature.from.y));
+        return directions;
+    }
+
+    /// The middle one of the blurs at the features of the first sample.
+    SquarePixels blur_of(const List<Feature, Recipe::max_features>& features) const {
+        std::vector<SquarePixels> found;
+        for (const Feature& feature : features) {
+            const Result<Measurement> measured = measure(samples_.parts.front(), feature);
+            if (measured && measured->blur.raw() > 0) found.push_back(measured->blur);
+        }
+        if (found.empty()) return {};
+        return median(Span<SquarePixels>(found.data(), static_cast<std::ptrdiff_t>(found.size())));
+    }
+
+private:
+    const Samples& samples_;
+    LocateRule rule_;
+    Scale scale_;
+};
+
+}  // namespace fovea::apps
