@@ -146,7 +146,7 @@ def self_containment(folder):
                               ("bad", "inline std::uint8_t f() { return 0; }\n", "does not name a type")]:
         tree = copy_of_project(folder / what)
         shutil.rmtree(tree / "core/include")
-        write(tree, {BASE: HEAD + text})
+        write(tree, {BASE: HEAD + text, "tests/target/gauge_objects.cpp": ""})
         yield what, ["sh", "-c", f"cmake --preset host -S {tree} -DCMAKE_CXX_COMPILER=g++ > /dev/null 2>&1; "
                                  f"cmake --build {tree}/build/host --target target_objects"], words
 
@@ -165,6 +165,74 @@ def consumers(folder):
     yield "a header C++20 refuses", broken("c", "core/include/fovea/number/integer.hpp", "#pragma once",
                                            "#pragma once\ninline int requires = 0;"), "find_package_moved, build FAILED"
     yield "an older version", broken("d", "CMakeLists.txt", "VERSION 0.1.0", "VERSION 0.0.9"), "find_package, configure FAILED"
+
+
+# ---- Golden vectors, memory ---------------------------------------------------------------
+
+@alarm
+def golden(folder):
+    def tree(name, files=None, excuse=""):
+        made = copy_of_project(folder / name)
+        (made / "tests/golden/without_vector.txt").open("a").write(excuse)
+        return [CHECKS / "golden.py", "--root", write(made, files or {})]
+
+    operator = HEAD + "namespace fovea {\n// ---- Interface\ninline Status sharpen(ImageView<const Gray8> src);\n" \
+                      "class Sharp {\npublic:\n    int edge() const;\nprivate:\n    int hidden();\n};\n" \
+                      "// ---- Implementation\ninline int unseen();\n}\n"
+    new = {"core/include/fovea/pixelwise/sharpen.hpp": operator}
+    yield "every function has its vector", tree("good"), None
+    yield "an operator without one", tree("operator", new), "pixelwise/sharpen.hpp: no golden vector for sharpen"
+    yield "a member without one", tree("member", new, "sharpen  a reason\n"), "no golden vector for Sharp::edge"
+    yield "the header excused", tree("excused", new, "pixelwise/sharpen.hpp  a reason\n"), None
+    yield "an excuse without a reason", tree("reason", new, "pixelwise/sharpen.hpp\n"), "no reason for"
+    yield "an excuse for nothing", tree("nothing", {}, "blur  a reason\n"), "nothing is called blur"
+
+    def computed(name, table, header="", old="", new=""):
+        made = copy_of_project(folder / name)
+        if header:
+            replace(made / header, old, new)
+        return ["sh", "-c", f"cd {made} && g++ -std=c++17 -O1 -Icore/include -Itests tests/golden/table.cpp -o table && "
+                            f"{CHECKS}/golden.py --table {table} ./table"]
+
+    table = PROJECT / "tests/golden/golden.txt"
+    lines = table.read_text().split("\n")
+    name, checksum = lines[-2].split()
+    lines[-2] = f"{name} {int(checksum, 16) ^ 1:08x}"
+    off = write(folder, {"off.txt": "\n".join(lines)}) / "off.txt"
+    yield "the table", computed("table", table), None
+    yield "a checksum off by one", computed("off", off), "the bits differ"
+    yield "an operator off by a little", computed("little", table, "core/include/fovea/pixelwise/to_gray.hpp", "9797, 19235",
+                                                  "9798, 19234"), "pixelwise/to_gray"
+    yield "a program that fails", [CHECKS / "golden.py", "--table", table, "false"], "ended with 1"
+
+
+@alarm
+def stack(folder):
+    def trial(name, source, budget="", note="unit.su"):
+        place = write(folder / name, {"unit.cpp": source, "budget": budget})
+        return ["sh", "-c", f"cd {place} && g++ -O1 -fstack-usage -c unit.cpp -o {note[:-3]}.o && "
+                            f"{CHECKS}/stack.py --budget budget {note}"]
+
+    large = "void use(char*);\nvoid fill() { char room[%s]; use(room); }\n"
+    yield "a small frame", trial("small", large % 100), None
+    yield "a large frame", trial("large", large % 3000), "bytes, at most 2048: void fill()"
+    yield "a large frame in the budget", trial("budget", large % 3000, "3100 fill a reason\n"), None
+    yield "a frame above its budget", trial("above", large % 4000, "3100 fill a reason\n"), "at most 3100"
+    yield "a frame of any size", trial("any", "void use(char*);\nvoid fill(int n) { char room[n]; use(room); }\n"), \
+        "a frame of unknown size"
+    yield "a budget without a reason", trial("reason", large % 100, "3100 fill\n"), "reason are wanted"
+    yield "a budget that nobody needs", trial("idle", large % 100, "3100 fill a reason\n", "gauge_objects.cpp.su"), \
+        "fill stands in the budget"
+    yield "no notes", [CHECKS / "stack.py", write(folder / "empty", {"a": ""})], "no notes"
+
+
+@alarm
+def memory(folder):
+    for what, words in [("the page", None), ("a page with another number", "write it anew")]:
+        tree = copy_of_project(folder / what.replace(" ", "_"))
+        page = (PROJECT / "docs/memory.md").read_text()
+        write(tree, {"docs/memory.md": page.replace("| erode, dilate | ", "| erode, dilate | 1") if words else page})
+        yield what, [tree / "tests/checks/memory.py"], words
 
 
 # ---- Runs ---------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from pathlib import Path
 # Standard headers of the core: none of them brings code that allocates, throws, prints or computes in floats.
 CORE_STANDARD = {"array", "cstddef", "cstdint", "cstring", "initializer_list", "limits", "type_traits", "utility"}
 # simd/ alone may know instruction sets.
-SIMD_INTRINSICS = {"arm_acle.h", "arm_mve.h", "arm_neon.h", "immintrin.h"}
+SIMD_INTRINSICS = {"arm_acle.h", "arm_mve.h", "arm_neon.h", "emmintrin.h", "immintrin.h"}
 # core <- hal <- ports <- apps; tests may see all. hal sees of the core only base and image.
 HOUSE = ["core", "hal", "ports", "apps", "tests"]
 HAL_SEES = {"base", "image"}

@@ -10,6 +10,7 @@
 #include <fovea/image/border.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/row_kernel.hpp>
+#include <fovea/number/integer.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
 #include <fovea/simd/lines.hpp>
@@ -95,17 +96,38 @@ public:
                 Extreme::of(Extreme::of(line_.at(x - 1), line_.at(x)), line_.at(x + 1)).store(dst + x, count);
             });
         else
-            simd::for_each_vector(width, [&](int x, int count) { across(x).store(dst + x, count); });
+            across(width, dst);
     }
 
 private:
+    /// Four vectors abreast as far as they go, so that a row's address is fetched once for all of them.
     void down(const RowWindow<Gray8>& window, int width) {
-        simd::for_each_vector(width, [&](int x, int count) {
+        constexpr int lanes = simd::lanes;
+        int x = 0;
+        for (; x + 4 * lanes <= width; x += 4 * lanes) {
+            simd::Bytes a = simd::Bytes::load(window[0] + x);
+            simd::Bytes b = simd::Bytes::load(window[0] + x + lanes);
+            simd::Bytes c = simd::Bytes::load(window[0] + x + 2 * lanes);
+            simd::Bytes d = simd::Bytes::load(window[0] + x + 3 * lanes);
+            for (int i = 1; i < window.count(); ++i) {
+                const Gray8* row = window[i] + x;
+                a = Extreme::of(a, simd::Bytes::load(row));
+                b = Extreme::of(b, simd::Bytes::load(row + lanes));
+                c = Extreme::of(c, simd::Bytes::load(row + 2 * lanes));
+                d = Extreme::of(d, simd::Bytes::load(row + 3 * lanes));
+            }
+            line_.put(x, a);
+            line_.put(x + lanes, b);
+            line_.put(x + 2 * lanes, c);
+            line_.put(x + 3 * lanes, d);
+        }
+        for (; x < width; x += lanes) {
+            const int count = minimum(lanes, width - x);
             simd::Bytes extreme = simd::Bytes::load(window[0] + x, count);
             for (int i = 1; i < window.count(); ++i)
                 extreme = Extreme::of(extreme, simd::Bytes::load(window[i] + x, count));
             line_.put(x, extreme);
-        });
+        }
     }
     void down_three(const Gray8* above, const Gray8* here, const Gray8* below, int width) {
         int x = 0;
@@ -117,12 +139,17 @@ private:
                                                  simd::Bytes::load(here + x, width - x)),
                                      simd::Bytes::load(below + x, width - x)));
     }
-    [[gnu::always_inline]] simd::Bytes across(int x) const {
+    /// The extremes of 2, 4, 8 ... columns from each column on, in place, until two of them cover the
+    /// element.
+    void across(int width, Gray8* dst) {
         const int reach = element_.width / 2;
-        simd::Bytes extreme = line_.at(x - reach);
-        for (int shift = 1 - reach; shift <= reach; ++shift)
-            extreme = Extreme::of(extreme, line_.at(x + shift));
-        return extreme;
+        int covered = 1;
+        for (; 2 * covered <= element_.width; covered *= 2)
+            for (int x = -reach; x <= width + reach - 2 * covered; x += simd::lanes)
+                line_.put(x, Extreme::of(line_.at(x), line_.at(x + covered)));
+        simd::for_each_vector(width, [&](int x, int count) {
+            Extreme::of(line_.at(x - reach), line_.at(x + reach + 1 - covered)).store(dst + x, count);
+        });
     }
 
     Size element_;

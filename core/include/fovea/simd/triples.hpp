@@ -7,9 +7,9 @@
 
 #include <fovea/simd/isa.hpp>
 
-#if defined(__SSE2__)
+#if FOVEA_BYTES >= 16 && defined(__SSE2__)
 #include <emmintrin.h>
-#elif defined(__ARM_NEON)
+#elif FOVEA_BYTES >= 16 && defined(__ARM_NEON)
 #include <arm_neon.h>
 #endif
 
@@ -31,13 +31,13 @@ struct TripleWeights {
 };
 
 /// Triples in one step of weigh_triples(); 1 where there is no faster way than one by one.
-#if defined(__SSE2__) || defined(__ARM_NEON)
+#if FOVEA_BYTES >= 16 && (defined(__SSE2__) || defined(__ARM_NEON))
 inline constexpr int triples_a_step = 16;
 #else
 inline constexpr int triples_a_step = 1;
 #endif
 
-#if defined(__SSE2__)
+#if FOVEA_BYTES >= 16 && defined(__SSE2__)
 
 /// The means of 16 triples: they are dealt out to three vectors, then multiplied in pairs.
 inline void weigh_step(const std::uint8_t* src, TripleWeights weights, std::uint8_t* dst) {
@@ -70,7 +70,7 @@ inline void weigh_step(const std::uint8_t* src, TripleWeights weights, std::uint
     _mm_storeu_si128(reinterpret_cast<__m128i*>(dst), _mm_packus_epi16(lower, upper));
 }
 
-#elif defined(__ARM_NEON)
+#elif FOVEA_BYTES >= 16 && defined(__ARM_NEON)
 
 inline void weigh_step(const std::uint8_t* src, TripleWeights weights, std::uint8_t* dst) {
     const uint8x16x3_t triples = vld3q_u8(src);

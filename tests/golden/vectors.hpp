@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+//
+// Golden vectors: what every operator makes of fixed inputs, as a checksum. The integer is the specification,
+// so a compiler, an instruction set or a chip that computes another checksum computes something else.
+//
+// The table of expected ones is golden.txt. It is written by the program golden_table; a changed line is
+// news.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/span.hpp>
+#include <golden/base_vectors.hpp>
+#include <golden/codec_vectors.hpp>
+#include <golden/decision_vectors.hpp>
+#include <golden/digest.hpp>
+#include <golden/draw_vectors.hpp>
+#include <golden/image_vectors.hpp>
+#include <golden/measure_vectors.hpp>
+#include <golden/workspace.hpp>
+
+namespace fovea::golden {
+
+struct Vector {
+    const char* name;
+    void (*compute)(Workspace& work, Digest& digest);
+};
+
+inline constexpr Vector vectors[] = {
+    {"base/containers", base_containers},
+    {"base/crc32", base_crc32},
+    {"base/order", base_order},
+    {"base/random", base_random},
+    {"number/angle_and_fixed", number_angle},
+    {"number/decimal", number_decimal},
+    {"number/int128", number_int128},
+    {"number/integer", number_integer},
+    {"number/root", number_root},
+    {"number/trigonometry", number_trigonometry},
+    {"simd/lanes", simd_lanes},
+    {"image/row_kernel", image_row_kernel},
+    {"image/views", image_views},
+    {"pixelwise/threshold", pixelwise_threshold},
+    {"pixelwise/to_gray", pixelwise_to_gray},
+    {"statistics/histogram", statistics_histogram},
+    {"statistics/moments", statistics_moments},
+    {"statistics/polygon_moments", statistics_polygon_moments},
+    {"morphology/rectangles", morphology_rectangles},
+    {"warp/bilinear", warp_bilinear},
+    {"segment/connected_components", segment_connected_components},
+    {"segment/fine_moments", segment_fine_moments},
+    {"segment/level_contour", segment_level_contour},
+    {"segment/runs", segment_runs},
+    {"measure/edge_probe", measure_edge_probe},
+    {"measure/fit_circle", measure_fit_circle},
+    {"measure/fit_line", measure_fit_line},
+    {"measure/half_turn", measure_half_turn},
+    {"measure/least_median", measure_least_median},
+    {"codec/any_picture", codec_any_picture},
+    {"codec/bmp", codec_bmp},
+    {"codec/encode_bmp", codec_encode_bmp},
+    {"codec/encode_png", codec_encode_png},
+    {"codec/encode_pnm", codec_encode_pnm},
+    {"codec/jpeg", codec_jpeg},
+    {"codec/jpeg_parts", codec_jpeg_parts},
+    {"codec/png", codec_png},
+    {"codec/pnm", codec_pnm},
+    {"codec/toml", codec_toml},
+    {"codec/zlib", codec_zlib},
+    {"draw/circles", draw_circles},
+    {"draw/lines", draw_lines},
+    {"draw/marks", draw_marks},
+    {"draw/polygons", draw_polygons},
+    {"draw/rectangles", draw_rectangles},
+    {"draw/texts", draw_texts},
+    {"decision/gauge", decision_gauge},
+    {"decision/locate", decision_locate},
+    {"decision/measure_feature", decision_measure_feature},
+    {"decision/part_frame", decision_part_frame},
+    {"decision/tolerance", decision_tolerance},
+};
+
+/// The checksum of one vector. The workspace is shared, and cleared first.
+inline std::uint32_t checksum(const Vector& vector, Workspace& work) {
+    for (auto& image : work.image)
+        for (std::uint8_t& byte : image) byte = 0;
+    for (std::uint8_t& byte : work.scratch) byte = 0xa5;
+    work.regions.clear();
+    work.holes.clear();
+    Digest digest;
+    vector.compute(work, digest);
+    return digest.value();
+}
+
+}  // namespace fovea::golden

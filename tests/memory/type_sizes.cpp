@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+//
+// The public types that a program stores, each as a symbol of its size: tests/checks/memory.py reads them
+// from the object, for processors whose programs cannot run here too.
+#include <fovea/base/list.hpp>
+#include <fovea/decision/gauge.hpp>
+#include <fovea/draw/polygon.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/segment/connected_components.hpp>
+#include <fovea/statistics/histogram.hpp>
+
+namespace fovea {
+
+template <class T>
+char bytes_of[sizeof(T)] = {};
+
+template char bytes_of<ImageView<Gray8>>[];
+template char bytes_of<Histogram>[];
+template char bytes_of<Moments>[];
+template char bytes_of<CentralMoments>[];
+template char bytes_of<Region>[];
+template char bytes_of<Hole>[];
+template char bytes_of<ConnectedComponents>[];
+template char bytes_of<Edge>[];
+template char bytes_of<PolygonEdge>[];
+template char bytes_of<Feature>[];
+template char bytes_of<Recipe>[];
+template char bytes_of<FeatureResult>[];
+template char bytes_of<PartResult>[];
+
+}  // namespace fovea
