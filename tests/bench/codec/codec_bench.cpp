@@ -7,8 +7,8 @@
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>
 
-#include "bench/harness.hpp"
-#include "bench/pictures.hpp"
+#include <bench/harness.hpp>
+#include <bench/pictures.hpp>
 
 #if defined(FOVEA_HAVE_LIBJPEG)
 #include <jpeglib.h>
@@ -22,7 +22,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-std::string percent(std::size_t part, std::size_t whole) {
+[[maybe_unused]] std::string percent(std::size_t part, std::size_t whole) {
     return std::to_string((part * 100 + whole / 2) / whole) + " %";
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <fovea/decision/gauge.hpp>
-#include <golden/plate_recipe.hpp>
-
 #include <cstdlib>
+#include <vector>
 
-#include "bench/harness.hpp"
-#include "bench/pictures.hpp"
+#include <fovea/decision/gauge.hpp>
+
+#include <bench/harness.hpp>
+#include <bench/pictures.hpp>
+#include <golden/plate_recipe.hpp>
 
 namespace fovea::bench {
 namespace {

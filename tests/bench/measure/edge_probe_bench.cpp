@@ -4,8 +4,8 @@
 #include <fovea/measure/fit_line.hpp>
 #include <fovea/number/trigonometry.hpp>
 
-#include "bench/harness.hpp"
-#include "bench/pictures.hpp"
+#include <bench/harness.hpp>
+#include <bench/pictures.hpp>
 
 namespace fovea::bench {
 namespace {

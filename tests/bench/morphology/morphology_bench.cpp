@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fovea/morphology/morphology.hpp>
 
-#include "bench/harness.hpp"
-#include "bench/opencv.hpp"
-#include "bench/pictures.hpp"
+#include <bench/harness.hpp>
+#include <bench/opencv.hpp>
+#include <bench/pictures.hpp>
 
 namespace fovea::bench {
 namespace {

@@ -2,9 +2,9 @@
 #include <fovea/pixelwise/threshold.hpp>
 #include <fovea/pixelwise/to_gray.hpp>
 
-#include "bench/harness.hpp"
-#include "bench/opencv.hpp"
-#include "bench/pictures.hpp"
+#include <bench/harness.hpp>
+#include <bench/opencv.hpp>
+#include <bench/pictures.hpp>
 
 namespace fovea::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/statistics/moments.hpp>
 
-#include "bench/harness.hpp"
-#include "bench/opencv.hpp"
-#include "bench/pictures.hpp"
+#include <bench/harness.hpp>
+#include <bench/opencv.hpp>
+#include <bench/pictures.hpp>
 
 namespace fovea::bench {
 namespace {
