@@ -29,7 +29,7 @@ inline std::string range_of(const Key& key) {
     const auto bound = [&](std::int64_t limit) {
         return key.type == KeyType::integer ? std::to_string(limit) : shortest(Decimal{limit});
     };
-    const std::string each =
+    std::string each =
         key.low == key.high ? ", always " + bound(key.low) : ", " + bound(key.low) + " to " + bound(key.high);
     switch (key.type) {
         case KeyType::integer:
