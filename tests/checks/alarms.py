@@ -2,7 +2,7 @@
 """Every check must fail where it should, with the right words: each is given a small tree or object with a fault
 planted in it, and once the same without the fault.
 
-usage: alarms.py [host|target]     which compilers are there
+usage: alarms.py [host|target|NAME...]     which compilers are there, or the alarms of these names alone
 """
 import json
 import os
@@ -165,6 +165,62 @@ def consumers(folder):
     yield "a header C++20 refuses", broken("c", "core/include/fovea/number/integer.hpp", "#pragma once",
                                            "#pragma once\ninline int requires = 0;"), "find_package_moved, build FAILED"
     yield "an older version", broken("d", "CMakeLists.txt", "VERSION 0.1.0", "VERSION 0.0.9"), "find_package, configure FAILED"
+
+
+# ---- Docs ---------------------------------------------------------------------------------
+
+PROGRAM = """```cpp
+#include <cstdio>
+
+#include <fovea/pixelwise/invert.hpp>
+
+int main() {
+    std::printf("%d\\n%d\\n", fovea::inverted(0), fovea::inverted(1));
+    return 0;
+}
+```
+
+```text output
+255
+254
+```
+"""
+DOCS = {
+    "core/include/fovea/base/status.hpp": HEAD,
+    "core/include/fovea/pixelwise/invert.hpp": HEAD + "namespace fovea {\nconstexpr int inverted(int level) { return 255 - level; }\n}\n",
+    "README.md": "# Root\n\nSee [inversion](docs/operators/README.md#to-invert) and [elsewhere](https://example.invalid).\n\n"
+                 "```cpp\nint half(int a) { return a / 2; }\n```\n\n```cpp fragment\nStatus s = ...\n```\n",
+    "docs/operators/README.md": "# Operators\n\n## To `invert`\n\nIn `pixelwise/invert.hpp`, `inverted` [it](../../README.md).\n\n"
+                                + PROGRAM,
+}
+
+
+@alarm
+def snippets(folder):
+    page, header = "docs/operators/README.md", "core/include/fovea/pixelwise/invert.hpp"
+
+    def trial(what, words, file=None, old="", new=""):
+        tree = write(folder / what.replace(" ", "_"), DOCS)
+        if file:
+            replace(tree / file, old, new)
+        return what, [CHECKS / "snippets.py", tree], words
+
+    yield trial("a good tree", None)
+    yield trial("a snippet that does not compile", "README.md:6: does not compile: 'b' was not declared", "README.md", "a / 2", "b / 2")
+    yield trial("a snippet with a warning", "README.md:6: does not compile", "README.md", "int a)", "long a)")
+    yield trial("a snippet that does not link", "does not compile: undefined reference", page, "int main() {",
+                "int gone();\n\nint main() {\n    if (gone() == 0) return 1;")
+    yield trial("a snippet that fails", "ends with 3", page, "return 0", "return 3")
+    yield trial("another output", "README.md:20: the program prints '254'", page, "\n254\n", "\n253\n")
+    yield trial("an output that ends early", "README.md:20: the program prints '254'", page, "\n254\n", "\n")
+    yield trial("an output of nothing", "an output without a program", "README.md", "cpp fragment", "text output")
+    yield trial("a block without an end", "has no end", page, "254\n```", "254\n")
+    yield trial("a kind of block that nobody checks", "no such kind of block: cpp sketch", "README.md", "fragment", "sketch")
+    yield trial("a dead link", "README.md:3: a dead link: docs/gone.md", "README.md", "docs/operators/README.md#to-invert", "docs/gone.md")
+    yield trial("a heading that is not there", "no such heading: docs/operators/README.md#to-erode", "README.md", "#to-invert", "#to-erode")
+    yield trial("a header without a line", "names this header", page, "`pixelwise/invert.hpp`", "a header")
+    yield trial("an operator without a line", "names erode()", header, "constexpr", "int erode(int);\nconstexpr")
+    yield trial("a line without a header", "no such header: pixelwise/erode.hpp", page, "In `", "In `pixelwise/erode.hpp`, `")
 
 
 # ---- Golden vectors, memory ---------------------------------------------------------------
@@ -354,7 +410,12 @@ def ring(function, folder):
 
 
 def main():
-    chosen = [target_binary] if sys.argv[1:] == ["target"] else alarms
+    names = sys.argv[1:]
+    chosen = [function for function in [*alarms, target_binary] if function.__name__ in names]
+    if names in ([], ["host"], ["target"]):
+        chosen = [target_binary] if names == ["target"] else alarms
+    elif len(chosen) != len(names):
+        sys.exit(f"alarms: there are {', '.join(function.__name__ for function in [*alarms, target_binary])}")
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         folders = [Path(folder) / function.__name__ for function in chosen]
         for place in folders:

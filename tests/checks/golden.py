@@ -144,4 +144,5 @@ def main():
     return check_table(options.table, options.command) if options.table else check_coverage(options.root)
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())
