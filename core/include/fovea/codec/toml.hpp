@@ -48,8 +48,9 @@ struct TomlItem {
 /// Reads a text item by item.
 ///
 /// next() answers the items in order, then kind end for ever. After malformed or out_of_range, place() and
-/// problem() say where and what; the reader must not be asked again. Errors  malformed for anything outside
-/// the subset; out_of_range for a number parse_decimal() refuses
+/// problem() say where and what; the reader must not be asked again.
+///
+/// Errors  malformed for anything outside the subset; out_of_range for a number parse_decimal() refuses
 class TomlReader {
 public:
     explicit constexpr TomlReader(Span<const char> text) : text_(text) {}

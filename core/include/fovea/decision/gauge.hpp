@@ -53,8 +53,7 @@ inline std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts);
 /// Order    parts by their first pixel, row by row; features as in the recipe
 /// Scratch  gauge_scratch(), undefined afterwards
 /// Errors   as find_parts(); bad_argument also for a scale out of its range; no part at all is ok with an
-/// empty
-///          list; capacity_exceeded leaves the largest parts in the list, measured
+///          empty list; capacity_exceeded leaves the largest parts in the list, measured
 /// Source   book sec. 6.2
 inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std::uint8_t> scratch,
                     ListView<PartResult> parts);

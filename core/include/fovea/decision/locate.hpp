@@ -67,8 +67,7 @@ inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const Locate
 /// The threshold that a rule asks for.
 ///
 /// Errors  empty_image; degenerate when all pixels are alike or, for the fixed and the quantile rule, one
-/// class
-///         is empty
+///         class is empty
 inline Result<Threshold> threshold_of(const Histogram& histogram, const LocateRule& rule);
 
 /// Scratch bytes for find_parts(). With fewer, down to about a fifth, it works for images that are calm.

@@ -71,10 +71,9 @@ constexpr std::int64_t measure_feature_scratch(Size size);
 ///
 /// Scratch  measure_feature_scratch(), undefined afterwards
 /// Errors   out_of_range if a probe or a place leaves the image; not_found if there are fewer edges than
-/// asked
-///          for, less than half of the probes see one, or no hole is within the search; degenerate if no line
-///          or circle follows from the edges; bad_argument for a feature out of its range; capacity_exceeded
-///          for more than 64 edges along a probe; scratch_too_small
+///          asked for, less than half of the probes see one, or no hole is within the search; degenerate if
+///          no line or circle follows from the edges; bad_argument for a feature out of its range;
+///          capacity_exceeded for more than 64 edges along a probe; scratch_too_small
 /// Source   book sec. 6.2.2. Blurred discs: the derivative of exp(-(r^2 + R^2) / 2s^2) I0(r R / s^2) has its
 ///          extreme at r = R - s^2 / 2R, to the second order in s / R
 inline Result<Measurement> measure_feature(const PartView& part, const Feature& feature,

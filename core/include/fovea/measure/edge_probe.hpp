@@ -61,10 +61,8 @@ constexpr int edge_probe_scratch(Size size);
 ///           ones repeat
 /// Scratch   samples of 1/256 grey level, undefined afterwards
 /// Errors    empty_image; bad_argument for a probe shorter than its smoothing, lines, smoothing or
-/// strength_min out of
-///           range;
-///           out_of_range if an end of any of the lines is outside the image; scratch_too_small;
-///           capacity_exceeded with the strongest edges in the list
+///           strength_min out of range; out_of_range if an end of any of the lines is outside the image;
+///           scratch_too_small; capacity_exceeded with the strongest edges in the list
 /// Source    book eq. 6.9, applied to the derivative; Canny, "A Computational Approach to Edge Detection",
 ///           PAMI 8(6), 1986. blur follows from the curvature of a Gaussian's logarithm at the extreme
 inline Status edge_probe(ImageView<const Gray8> src, const EdgeProbe& probe, GrayLevel strength_min,

@@ -45,8 +45,7 @@ struct CircleFit {
 /// Shapes    3..max_fit_points points
 /// Rounding  centre and radius to within 2^-16 px of the minimum, times 1 / (1 - cos(arc / 2)) on an arc
 /// Errors    degenerate for fewer than three points, points on a line or on an arc of less than about a
-/// degree,
-///           a centre beyond 32767 px, or when 30 steps do not reach the minimum; bad_argument above
+///           degree, a centre beyond 32767 px, or when 30 steps do not reach the minimum; bad_argument above
 ///           max_fit_points
 /// Source    Gauss-Newton on the distances; Gander, Golub, Strebel, "Least-Squares Fitting of Circles and
 ///           Ellipses", BIT 34, 1994, sec. 4

@@ -39,8 +39,7 @@ struct LineFit {
 ///
 /// Shapes    2..max_fit_points points
 /// Rounding  sums are exact for points within 1024 px of their centre, and to a relative 2^-26 beyond; point
-/// is
-///           the centre of the points
+///           is the centre of the points
 /// Errors    degenerate for fewer than two points, for points that are all alike or prefer no direction;
 ///           bad_argument above max_fit_points
 /// Source    total least squares; Pearson, "On Lines and Planes of Closest Fit", 1901

@@ -40,7 +40,8 @@ constexpr std::int64_t closing_scratch(Size size) { return size.area() + byte_li
 /// Overlap  none: dst must not share pixels with src
 /// Scratch  erode_scratch(src.size()) bytes, undefined afterwards
 /// Errors   empty_image, size_mismatch, bad_argument for an even, too small or too large element,
-/// scratch_too_small Source   book sec. 2.7.2. The outermost rows and columns are eroded like all others
+///          scratch_too_small
+/// Source   book sec. 2.7.2. The outermost rows and columns are eroded like all others
 inline Status erode(ImageView<const Gray8> src, Size element, Span<std::uint8_t> scratch,
                     ImageView<Gray8> dst);
 

@@ -39,8 +39,7 @@ inline constexpr std::int64_t max_decimal_units = 100000000;
 /// Reads [+-]digits[.digits], all of the text.
 ///
 /// Errors  malformed for anything else (no digit on a side of the point, an exponent, blanks); out_of_range
-/// beyond
-///         max_decimal_units or for more than six places that are not zero
+///         beyond max_decimal_units or for more than six places that are not zero
 constexpr Result<Decimal> parse_decimal(Span<const char> text);
 
 /// Writes a number with the given places (0..6), rounded to the nearest with ties away from zero, and answers

@@ -85,9 +85,8 @@ constexpr int leading_zeros(std::uint64_t value) { return value == 0 ? 64 : __bu
 ///
 /// Time    three divisions of 32 bits, or four with the last of 64
 /// Source  Newton's iteration, each step with as many bits as will be right; Dickinson's proof for math.isqrt
-/// of
-///         CPython: before the last correction the root is less than 1 off. All 2^32 values were tried, and
-///         the neighbours of all 2^32 squares
+///         of CPython: before the last correction the root is less than 1 off. All 2^32 values were tried,
+///         and the neighbours of all 2^32 squares
 constexpr std::uint32_t isqrt(std::uint32_t value) {
     if (value == 0) return 0;
     const int raise = leading_zeros(value) & ~1;

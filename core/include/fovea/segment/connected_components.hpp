@@ -78,8 +78,7 @@ constexpr std::int64_t connected_components_scratch(int width) {
 ///          that are negative or crossed; scratch_too_small when labels run out, with both lists empty;
 ///          capacity_exceeded when a list is full: it holds the largest, the earlier ones of equals
 /// Source   book sec. 2.8.3; runs and union-find after Rosenfeld and Pfaltz, "Sequential Operations in
-/// Digital
-///          Picture Processing", JACM 13(4), 1966
+///          Digital Picture Processing", JACM 13(4), 1966
 class ConnectedComponents {
 public:
     ConnectedComponents(int width, const ComponentOptions& options, Span<std::uint8_t> scratch,

@@ -23,10 +23,10 @@ namespace fovea {
 /// list count as filled.
 ///
 /// Shapes    src is the image whose threshold by `set` gave the region and the holes, with
-/// Connectivity::eight Rounding  as PolygonMoments; of a region with a side above max_polygon_reach, the
-/// moments of its pixels Errors    empty_image if nothing is enclosed; out_of_range or bad_argument if region
-/// and image do not belong
-///           together
+///           Connectivity::eight
+/// Rounding  as PolygonMoments; of a region with a side above max_polygon_reach, the moments of its pixels
+/// Errors    empty_image if nothing is enclosed; out_of_range or bad_argument if region and image do not
+///           belong together
 /// Source    trace_level_contour() and PolygonMoments
 inline Result<CentralMoments> fine_moments(ImageView<const Gray8> src, LevelSet set, const Region& region,
                                            Span<const Hole> holes);

@@ -35,8 +35,7 @@ struct LevelSet {
 /// Border    beyond the image nothing belongs; there the point is half a pixel outside
 /// Errors    empty_image; out_of_range if start is outside the image; bad_argument if it is no start
 /// Source    crack following; Rosenfeld and Kak, "Digital Picture Processing", 1982, vol. 2, sec. 11.2.2.
-/// With the
-///           points joined it is the contour of marching squares
+///           With the points joined it is the contour of marching squares
 template <class Visit>
 Status trace_level_contour(ImageView<const Gray8> src, LevelSet set, Connectivity connectivity, Point start,
                            Visit visit);

@@ -50,10 +50,9 @@ struct Bytes {
 /// The same pixels at 16 bits, even and odd columns apart, so that nothing is shuffled.
 ///
 /// Contract  every sum, product and left shift stays a non-negative value below 2^16, or comes from a
-/// difference and
-///           goes only into absolute() or another difference: a negative half must not be the left side of a
-///           sum, because the word back end would carry into its neighbour. Write c + 1024 - a, not c - a +
-///           1024.
+///           difference and goes only into absolute() or another difference: a negative half must not be the
+///           left side of a sum, because the word back end would carry into its neighbour. Write c + 1024 -
+///           a, not c - a + 1024.
 struct Words {
     RawWords even;
     RawWords odd;
