@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The pictures of docs/operators, made with fovea's own operators; the same bytes on every machine.
-//
-//     g++ -std=c++17 -O2 -Icore/include -Iapps tests/docs/pictures.cpp -o build/pictures
-//     build/pictures docs/pictures
+// The pictures of docs/operators, made with fovea's own operators; the same bytes on every machine. After a
+// change: build/host/tests/pictures docs/pictures
 
 #include <cstdint>
 #include <cstdio>
