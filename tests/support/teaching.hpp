@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// Recipes taught from rendered parts, and what they say of others. Host tests only.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fovea/base/random.hpp>
+#include <gauge/gauge_command.hpp>
+#include <gauge/teach.hpp>
+#include <support/parts.hpp>
+#include <support/recipes.hpp>
+
+namespace fovea::test {
+
+/// A picture that shapes::plate() and its like fit into, however they are turned.
+inline constexpr Size one_part_size{250, 250};
+
+inline Scene back_light() {
+    Scene light;
+    light.noise = 2;
+    return light;
+}
+inline Scene front_light() {
+    Scene light = back_light();
+    std::swap(light.dark, light.bright);
+    return light;
+}
+
+namespace shapes {
+
+/// plate() that is longer, or shorter, at the end with the smaller hole.
+inline Shape longer_plate(double by) {
+    const Shape extended = with(plate(), rectangle(20, 70), -80 - by, 0);
+    return [=](double s, double t) { return s >= -90 - by && extended(s, t); };
+}
+inline Shape plate_without_its_small_hole() { return with(plate(), disc(11), -48, 4); }
+
+}  // namespace shapes
+
+/// One part near the middle of a picture.
+inline apps::Picture<Gray8> lying(const Shape& shape, double degrees, std::uint64_t seed,
+                                  const Scene& light = back_light()) {
+    return picture_of(one_part_size, {{shape, 124.3, 125.8, degrees}}, light, seed);
+}
+
+inline apps::Taught taught_from(const std::vector<apps::Picture<Gray8>>& pictures,
+                                const apps::TeachOptions& options = {}) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < pictures.size(); ++i) names.push_back("good_" + std::to_string(i));
+    return apps::teach(pictures, names, options);
+}
+
+/// "ok not_ok length:high": the verdicts of the parts in a picture, each with the features that are not OK.
+inline std::string verdicts_of(const apps::Picture<Gray8>& picture, const Recipe& recipe) {
+    std::vector<PartResult> parts;
+    const Status status = apps::gauge_picture(picture, recipe, parts);
+    if (status != Status::ok) return describe(status);
+    std::string text;
+    for (const PartResult& part : parts) {
+        text += (text.empty() ? "" : " ") + std::string(apps::name_of(part.verdict));
+        for (int i = 0; i < part.feature_count; ++i)
+            if (part.features[i].verdict != Verdict::ok)
+                text +=
+                    " " + name_text(recipe.features[i].name) + ":" + apps::name_of(part.features[i].verdict);
+    }
+    return text;
+}
+
+/// The names of the features in their order.
+inline std::vector<std::string> feature_names(const Recipe& recipe) {
+    std::vector<std::string> names;
+    for (const Feature& feature : recipe.features) names.push_back(name_text(feature.name));
+    return names;
+}
+
+}  // namespace fovea::test
