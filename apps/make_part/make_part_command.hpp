@@ -46,6 +46,7 @@ inline bool option_numbers(const std::string& text, char between, std::size_t co
     }
     return true;
 }
+inline bool whole(std::int64_t millionths) { return millionths % 1000000 == 0; }
 inline FinePixel fine_of(std::int64_t millionths) { return FinePixel::from_ratio(millionths, 1000000); }
 
 /// Reads the options into a scene; the problem if one of them is wrong.
@@ -56,11 +57,14 @@ inline std::string read_scene(const Arguments& arguments, PartScene& scene) {
     };
     const auto given = [&](const char* name) { return arguments.has(name); };
     if (given("size")) {
-        if (!option_numbers(arguments.value("size"), 'x', 2, n) || n[0] < 8000000 || n[1] < 8000000 ||
-            n[0] > 8191000000 || n[1] > 8191000000)
+        const auto is_side = [](std::int64_t value) {
+            return whole(value) && value >= 8000000 && value <= 8191000000;
+        };
+        if (!option_numbers(arguments.value("size"), 'x', 2, n) || !is_side(n[0]) || !is_side(n[1]))
             return wrong("size", "two sides of 8 to 8191 such as 640x480");
         scene.size = {static_cast<int>(n[0] / 1000000), static_cast<int>(n[1] / 1000000)};
-        scene.middle = {fine_of(n[0] / 2000000 * 1000000), fine_of(n[1] / 2000000 * 1000000)};
+        scene.middle = {FinePixel::from_int(scene.size.width / 2),
+                        FinePixel::from_int(scene.size.height / 2)};
     }
     if (given("plate")) {
         if (!option_numbers(arguments.value("plate"), 'x', 2, n) || n[0] <= 0 || n[1] <= 0)
@@ -104,8 +108,8 @@ inline std::string read_scene(const Arguments& arguments, PartScene& scene) {
         scene.noise = n[0];
     }
     if (given("seed")) {
-        if (!option_numbers(arguments.value("seed"), '\0', 1, n) || n[0] < 0 || n[0] % 1000000 != 0)
-            return wrong("seed", "a whole number");
+        if (!option_numbers(arguments.value("seed"), '\0', 1, n) || n[0] < 0 || !whole(n[0]))
+            return wrong("seed", "a whole number from 0 to 20000");
         scene.seed = static_cast<std::uint64_t>(n[0] / 1000000);
     }
     if (given("bright")) std::swap(scene.part_level, scene.ground_level);

@@ -63,7 +63,8 @@ ExitCode run_command(Io& io, const std::vector<std::string>& words) {
         names.push_back(entry.help.name);
         if (name == entry.help.name) return entry.run(io, {words.begin() + 1, words.end()});
     }
-    io.complain("fovea: unknown command " + name + hint(nearest_name(name, names)) +
+    const std::string meant = hint(nearest_name(name, names));
+    io.complain("fovea: unknown command " + one_line(name) + (meant.empty() ? ";" : meant) +
                 " `fovea --help` lists them");
     return exit_failed;
 }
