@@ -3,6 +3,7 @@
 // The annotated picture: every part with its frame, its probes, what they found, and the verdicts.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -94,7 +95,8 @@ private:
     Point place(FinePoint point) const {
         const auto scaled = [&](FinePixel value) {
             // Pixel centres stay centres: (v + 1/2) zoom - 1/2.
-            return FinePixel::from_raw(value.raw() * zoom_ + (zoom_ - 1) * (FinePixel::one / 2)).round();
+            const std::int64_t raw = std::int64_t{value.raw()} * zoom_ + (zoom_ - 1) * (FinePixel::one / 2);
+            return static_cast<int>(round_shift(raw, FinePixel::fraction_bits));
         };
         return {scaled(point.x), scaled(point.y)};
     }

@@ -55,6 +55,8 @@ void gauge_with(const Recipe& recipe) {
         require(!apps::human_part("picture", i, part, recipe).empty());
         require(!apps::json_part("picture", i, part, recipe).empty());
     }
+    parts.resize(static_cast<std::size_t>(count));
+    require(!apps::explain(picture, recipe, parts).size.empty());
 }
 
 }  // namespace
