@@ -41,6 +41,13 @@ inline Outline outline_of(const Sample& sample, const PartFrame& frame) {
         sample.image->view(), sample.threshold.part, Connectivity::eight, sample.region.first,
         [&](FinePoint point) { outline.points.push_back(frame.to_part(point)); }));
     if (outline.points.empty()) return outline;
+    // From a corner on: what is farthest from any point is one.
+    const PartPoint any = outline.points.front();
+    std::rotate(
+        outline.points.begin(),
+        std::max_element(outline.points.begin(), outline.points.end(),
+                         [&](PartPoint a, PartPoint b) { return length_of(a - any) < length_of(b - any); }),
+        outline.points.end());
     Extent& box = outline.extent;
     box = {outline.points[0].x, outline.points[0].x, outline.points[0].y, outline.points[0].y};
     for (const PartPoint& point : outline.points) {
@@ -129,26 +136,59 @@ inline std::vector<std::size_t> corners_of(const std::vector<PartPoint>& points,
     return corners;
 }
 
-/// A line fitted to the points first..last of an outline, cut at the feet of these two.
-inline std::optional<Stretch> fitted_edge(const Outline& outline, std::size_t first, std::size_t last,
-                                          const Scale& scale) {
+/// Points first..last of an outline, of count; last may lie beyond its end, once around.
+struct PointRange {
+    std::size_t first = 0;
+    std::size_t last = 0;
+};
+
+/// A line fitted to a range, cut at the feet of its ends.
+inline std::optional<Stretch> fitted_edge(const Outline& outline, PointRange range, const Scale& scale) {
     const std::size_t count = outline.points.size();
-    const std::size_t step = (last - first) / static_cast<std::size_t>(max_fit_points) + 1;
+    const std::size_t step = (range.last - range.first) / static_cast<std::size_t>(max_fit_points) + 1;
     std::vector<FinePoint> points;
-    for (std::size_t i = first; i <= last; i += step)
+    for (std::size_t i = range.first; i <= range.last; i += step)
         points.push_back(in_pixels(outline.points[i % count], scale));
     const Result<LineFit> fit = fit_line({points.data(), static_cast<std::ptrdiff_t>(points.size())});
     if (!fit) return {};
     const UnitVector way = unit_vector(fit->line.direction);
     const PartPoint centre = part_point(fit->line.point, scale);
     const auto foot = [&](PartPoint point) { return centre + stretched_by(way, along(point - centre, way)); };
-    return Stretch{foot(outline.points[first % count]), foot(outline.points[last % count])};
+    return Stretch{foot(outline.points[range.first % count]), foot(outline.points[range.last % count])};
+}
+
+/// The longest range around the middle of another that stays within a tolerance of a line; single points may
+/// lie farther.
+inline PointRange range_along(const Outline& outline, const Stretch& line, PointRange start,
+                              std::int64_t tolerance) {
+    const std::size_t count = outline.points.size();
+    const UnitVector across = unit_vector(line.direction() + FineAngle::quarter_turn());
+    const auto near = [&](std::size_t i) {
+        return std::abs(along(outline.points[i % count] - line.from, across)) <= tolerance;
+    };
+    // Counted from one turn on, so that a range may begin before the first point.
+    const std::size_t middle = count + (start.first + start.last) / 2;
+    PointRange range{middle, middle};
+    while (range.last - range.first + 2 < count && (near(range.first - 1) || near(range.first - 2)))
+        --range.first;
+    while (range.last - range.first + 2 < count && (near(range.last + 1) || near(range.last + 2)))
+        ++range.last;
+    const std::size_t turns = range.first / count * count;
+    return {range.first - turns, range.last - turns};
+}
+
+/// True if a point of a range is in another one, of count points around.
+inline bool overlap(PointRange one, PointRange two, std::size_t count) {
+    const auto meet = [](PointRange a, PointRange b, std::size_t shift) {
+        return a.first <= b.last + shift && b.first + shift <= a.last;
+    };
+    return meet(one, two, 0) || meet(one, two, count) || meet(two, one, count);
 }
 
 }  // namespace detail
 
-/// The straight stretches of an outline that are longer than a sixth of it is wide, without a seventh at both
-/// ends so that rounded corners stay out: lines fitted to the points between.
+/// The straight stretches of an outline that are longer than a sixth of it is wide: lines fitted to what lies
+/// within half a pixel of them, without a twelfth and six pixels at both ends so that corners stay out.
 inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& scale) {
     std::vector<Stretch> edges;
     const std::size_t count = outline.points.size();
@@ -157,14 +197,30 @@ inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& 
     const Extent& box = outline.extent;
     const std::int64_t least = std::max(std::max(box.right - box.left, box.bottom - box.top) / 6, 24 * pixel);
     const std::vector<std::size_t> corners = detail::corners_of(outline.points, pixel + pixel / 2);
+    std::vector<detail::PointRange> ranges;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const std::size_t first = corners[i];
-        const std::size_t last = i + 1 < corners.size() ? corners[i + 1] : count + corners[0];
-        const Stretch whole{outline.points[first], outline.points[last % count]};
-        if (whole.length() < least) continue;
-        const std::size_t trim = (last - first) / 7;
-        const std::optional<Stretch> edge = detail::fitted_edge(outline, first + trim, last - trim, scale);
-        if (edge) edges.push_back(*edge);
+        const detail::PointRange piece{corners[i],
+                                       i + 1 < corners.size() ? corners[i + 1] : count + corners[0]};
+        const std::size_t trim = (piece.last - piece.first) / 7;
+        const std::optional<Stretch> line =
+            detail::fitted_edge(outline, {piece.first + trim, piece.last - trim}, scale);
+        if (!line || line->length() < least / 3) continue;
+        const detail::PointRange range = detail::range_along(outline, *line, piece, pixel / 2);
+        const Stretch whole{outline.points[range.first % count], outline.points[range.last % count]};
+        const std::int64_t length = whole.length();
+        if (length < least || std::any_of(ranges.begin(), ranges.end(), [&](detail::PointRange other) {
+                return detail::overlap(range, other, count);
+            }))
+            continue;
+        // Points lie closer than a pixel, and evenly enough.
+        const auto points = static_cast<std::int64_t>(range.last - range.first);
+        const auto cut =
+            static_cast<std::size_t>(multiply_divide(points, std::max(length / 12, 6 * pixel), length));
+        const std::optional<Stretch> edge =
+            detail::fitted_edge(outline, {range.first + cut, range.last - cut}, scale);
+        if (!edge) continue;
+        ranges.push_back(range);
+        edges.push_back(*edge);
     }
     return edges;
 }
