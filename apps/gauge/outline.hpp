@@ -177,12 +177,11 @@ inline PointRange range_along(const Outline& outline, const Stretch& line, Point
     return {range.first - turns, range.last - turns};
 }
 
-/// True if a point of a range is in another one, of count points around.
-inline bool overlap(PointRange one, PointRange two, std::size_t count) {
-    const auto meet = [](PointRange a, PointRange b, std::size_t shift) {
-        return a.first <= b.last + shift && b.first + shift <= a.last;
-    };
-    return meet(one, two, 0) || meet(one, two, count) || meet(two, one, count);
+/// True if the middle of a range is in another one, of count points around: they follow the same edge. At
+/// corners, ranges of two edges may share a point.
+inline bool same_edge(PointRange one, PointRange two, std::size_t count) {
+    const std::size_t middle = (one.first + one.last) / 2 % count;
+    return (middle >= two.first && middle <= two.last) || middle + count <= two.last;
 }
 
 }  // namespace detail
@@ -209,7 +208,7 @@ inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& 
         const Stretch whole{outline.points[range.first % count], outline.points[range.last % count]};
         const std::int64_t length = whole.length();
         if (length < least || std::any_of(ranges.begin(), ranges.end(), [&](detail::PointRange other) {
-                return detail::overlap(range, other, count);
+                return detail::same_edge(range, other, count);
             }))
             continue;
         // Points lie closer than a pixel, and evenly enough.

@@ -28,7 +28,11 @@ Spread spread_of(const std::vector<std::int64_t>& values);
 Tolerance proposed_tolerance(const Feature& feature, const Scale& scale, const Spread& spread,
                              std::optional<std::int64_t> asked);
 
-/// A note if the good parts differ by more than parts of one kind should, or by more than was asked for; else
+/// True if parts that differ so are not of one kind: by more than an eighth of a length, or 10 degrees.
+bool too_wide(const Feature& feature, const Spread& spread);
+
+/// What to say if good parts differ by more than parts of one kind should, or by more than was asked for;
+/// else
 /// "".
 std::string spread_note(const Feature& feature, const Scale& scale, const Spread& spread,
                         std::optional<std::int64_t> asked);
@@ -67,6 +71,11 @@ inline Tolerance proposed_tolerance(const Feature& feature, const Scale& scale, 
     return {{nominal}, {wide}, {wide}};
 }
 
+inline bool too_wide(const Feature& feature, const Spread& spread) {
+    if (feature.kind == FeatureKind::position || feature.kind == FeatureKind::hole_count) return false;
+    return spread.farthest > (feature.kind == FeatureKind::angle ? 10000000 : spread.mean / 8);
+}
+
 inline std::string spread_note(const Feature& feature, const Scale& scale, const Spread& spread,
                                std::optional<std::int64_t> asked) {
     const bool given = detail::is_length(feature) && asked;
@@ -77,8 +86,10 @@ inline std::string spread_note(const Feature& feature, const Scale& scale, const
     const std::string unit = unit_of(feature, scale);
     return detail::text_of(feature.name) + " differs by up to " +
            number(Decimal{spread.farthest}, places_of(feature, scale)) + (unit.empty() ? "" : " " + unit) +
-           " from the mean of the good parts; " +
-           (given ? "that is more than --tolerance" : "its tolerance follows from that");
+           " from the mean of what was measured; " +
+           (too_wide(feature, spread) ? "it is left out: is all of this one kind of part?"
+            : given                   ? "that is more than --tolerance"
+                                      : "its tolerance follows from that");
 }
 
 }  // namespace fovea::apps

@@ -127,7 +127,7 @@ private:
         feature.tolerance = proposed_tolerance(feature, recipe_.scale, spread, options_.tolerance);
         const std::string note = spread_note(feature, recipe_.scale, spread, options_.tolerance);
         if (!note.empty()) notes_.push_back(note);
-        return recipe_.features.push(feature) == Status::ok;
+        return !too_wide(feature, spread) && recipe_.features.push(feature) == Status::ok;
     }
 
     bool propose_round() {
@@ -323,29 +323,41 @@ private:
             notes_.push_back("holes are not counted: the good parts have from " +
                              std::to_string(fewest->holes.size()) + " to " +
                              std::to_string(most->holes.size()));
-        int number = 0;
+        struct Found {
+            Feature feature;
+            bool round;
+        };
+        std::vector<Found> found;
         for (const Hole& hole : first.holes) {
-            if (number == 6) break;
             const Result<CentralMoments> moments =
                 fine_moments(first.image->view(), first.threshold.part, hole);
             if (!moments) continue;
-            ++number;
             Feature feature;
+            feature.kind = FeatureKind::position;
             feature.centre = meter_.frame_of(first).to_part(moments->centroid);
             feature.search =
                 std::max<std::int64_t>(pixel_ * std::max(hole.box.width, hole.box.height) / 2, pixel_);
-            feature.kind = FeatureKind::hole_diameter;
-            const std::string name = "hole_" + std::to_string(number);
-            const bool measured = !is_disc(*moments) || add(feature, name);
-            feature.kind = FeatureKind::position;
-            if (add(feature, name + "_position") && measured) continue;
-            notes_.push_back(
-                recipe_.locate.orientation == OrientationRule::symmetric
-                    ? name +
-                          " lies elsewhere when the part is turned by half, which its outline does not "
-                          "tell: it is not measured"
-                    : name + " is not found on every part");
+            feature.centre = meter_.mean_place(feature).value_or(feature.centre);
+            found.push_back({feature, is_disc(*moments)});
         }
+        // By their place along the part and, less, across it: their numbers must not hang on noise.
+        std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+            return 4 * a.feature.centre.x + a.feature.centre.y < 4 * b.feature.centre.x + b.feature.centre.y;
+        });
+        for (std::size_t i = 0; i < std::min<std::size_t>(found.size(), 6); ++i)
+            propose_hole(found[i].feature, found[i].round, "hole_" + std::to_string(i + 1));
+    }
+    void propose_hole(Feature feature, bool round, const std::string& name) {
+        feature.kind = FeatureKind::hole_diameter;
+        if (round && !add(feature, name))
+            notes_.push_back(name + " has no diameter: its edge is not seen as a circle on every part");
+        feature.kind = FeatureKind::position;
+        if (add(feature, name + "_position")) return;
+        notes_.push_back(
+            name + (recipe_.locate.orientation == OrientationRule::symmetric
+                        ? " lies elsewhere when the part is turned by half, which its outline does not tell: "
+                          "its place is not measured"
+                        : " is not found on every part"));
     }
 
     const Samples& samples_;

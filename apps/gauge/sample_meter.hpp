@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <fovea/base/order.hpp>
@@ -45,6 +46,17 @@ public:
             values.push_back(found->value.millionths);
         }
         return values;
+    }
+    /// The mean place of the holes that a position finds; nothing if a sample has none there.
+    std::optional<PartPoint> mean_place(const Feature& position) const {
+        PartPoint sum;
+        for (const Sample& sample : samples_.parts) {
+            const Result<Measurement> found = measure(sample, position);
+            if (!found) return {};
+            sum = sum + frame_of(sample).to_part(found->marks[0]);
+        }
+        const auto count = static_cast<std::int64_t>(samples_.parts.size());
+        return PartPoint{round_divide(sum.x, count), round_divide(sum.y, count)};
     }
     /// The direction in the image in which a probe runs on every sample.
     std::vector<FineAngle> directions_of(const Feature& feature) const {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <fovea/codec/any_picture.hpp>
+
 #include <common/arguments.hpp>
 #include <common/io.hpp>
 #include <common/picture_file.hpp>
@@ -22,7 +24,9 @@ inline Command teach_help() {
     return {"teach",
             "--out RECIPE GOOD...",
             "Proposes a recipe from pictures of good parts.",
-            {{"out", "RECIPE", "the recipe to write, - for the standard output; required"},
+            {{"out", "RECIPE",
+              "the recipe to write, - for the standard output; required.\nOne that is there already is kept "
+              "as RECIPE~"},
              {"name", "NAME", "what the part is called"},
              {"part", "dark|bright", "brightness of the part on its ground; found out if not\ngiven"},
              {"known-length", "MM",
@@ -95,6 +99,27 @@ inline std::string overwritten(const Arguments& arguments) {
     return "";
 }
 
+/// Saves a recipe. The one that it replaces is kept beside it, because people edit recipes; a picture is
+/// never replaced. Answers what went wrong, "" if nothing; note says what was kept.
+template <class Io>
+std::string save_recipe(Io& io, const std::string& name, const std::string& text, std::string& note) {
+    const auto save = [&](const std::string& to, Span<const std::uint8_t> bytes) -> std::string {
+        const Status status = io.storage().save(to.c_str(), bytes);
+        return status == Status::ok ? "" : file_problem(to, status, io.storage());
+    };
+    // A stream or a device keeps nothing, and reading from it would wait.
+    Result<Span<const std::uint8_t>> old = Status::not_found;
+    if (name != "-" && name.rfind("/dev/", 0) != 0) old = io.storage().load(name.c_str());
+    if (old && picture_format(*old) != PictureFormat::unknown)
+        return "fovea teach: --out would overwrite the picture " + name + "; give the recipe another name";
+    if (old && !old->empty() && std::string(old->begin(), old->end()) != text) {
+        const std::string problem = save(name + "~", *old);
+        if (!problem.empty()) return problem;
+        note = "the recipe before is " + name + "~\n";
+    }
+    return save(name, bytes_of(text));
+}
+
 /// What was proposed, for people.
 inline std::string summary(const Taught& taught) {
     const Recipe& recipe = taught.recipe;
@@ -160,12 +185,13 @@ ExitCode teach_command(Io& io, const std::vector<std::string>& words) {
         io.complain("fovea teach: the recipe would be out of range: " + file.problem);
         return exit_failed;
     }
-    const Status saved = io.storage().save(out.c_str(), bytes_of(text));
-    if (saved != Status::ok) {
-        io.complain(file_problem(out, saved, io.storage()));
+    std::string kept;
+    problem = detail::save_recipe(io, out, text, kept);
+    if (!problem.empty()) {
+        io.complain(problem);
         return exit_failed;
     }
-    if (out != "-") io.print(detail::summary(taught) + "wrote " + out + "\n");
+    if (out != "-") io.print(detail::summary(taught) + "wrote " + out + "\n" + kept);
     if (arguments.has("explain")) {
         std::vector<PartResult> parts;
         static_cast<void>(gauge_picture(images[0], taught.recipe, parts));

@@ -14,8 +14,8 @@ enum class Verdict : std::uint8_t {
     ok,
     low,         ///< below nominal - minus
     high,        ///< above nominal + plus
-    not_ok,      ///< a part with at least one value low or high
-    unmeasured,  ///< no value, so no judgement: neither OK nor not OK
+    not_ok,      ///< a part with at least one value low or high, whatever else could not be measured
+    unmeasured,  ///< no value, or not of all that is asked for and none bad: neither OK nor not OK
 };
 
 /// nominal - minus <= value <= nominal + plus is OK, both ends included.
@@ -31,10 +31,11 @@ constexpr Verdict judge(Decimal value, const Tolerance& tolerance) {
     return Verdict::ok;
 }
 
-/// A part is unmeasured if one of its values is, else not OK if one of its values is, else OK.
+/// A part is not OK if one of its values is, else unmeasured if one of them is, else OK.
 constexpr Verdict combine(Verdict part, Verdict value) {
-    if (part == Verdict::unmeasured || value == Verdict::unmeasured) return Verdict::unmeasured;
-    return part == Verdict::ok && value == Verdict::ok ? Verdict::ok : Verdict::not_ok;
+    const auto bad = [](Verdict each) { return each != Verdict::ok && each != Verdict::unmeasured; };
+    if (bad(part) || bad(value)) return Verdict::not_ok;
+    return part == Verdict::ok ? value : part;
 }
 
 }  // namespace fovea
