@@ -232,6 +232,16 @@ TEST(EdgeProbe, WorksInTheSmallestImages) {
     EXPECT_EQ(probed.edges[0].place, fine(0.5, 0));
 }
 
+TEST(EdgeProbe, RefusesParallelsBeyondTheCoordinatesOfTheLongestRow) {
+    GuardedImage<Gray8> row({max_image_side, 1});
+    row.fill(Gray8{9});
+    EdgeProbe line = along(32000, 0, 32010, 0, 255);
+    line.across = fine(100, 0);
+    EXPECT_EQ(probe(row.view(), line).status, Status::out_of_range);
+    line.across = fine(-100, 0);
+    EXPECT_EQ(probe(row.view(), line).status, Status::out_of_range);
+}
+
 TEST(EdgeProbe, SaysWhatIsWrongAndLeavesTheList) {
     GuardedImage<Gray8> image({20, 10});
     image.fill(Gray8{9});

@@ -130,6 +130,27 @@ TEST(FitCircle, SaysWhatIsWrong) {
     EXPECT_EQ(fit_circle_robust(span_of(good), {}).status(), Status::scratch_too_small);
 }
 
+TEST(CircleThrough, RefusesThreePointsThatHardlyBend) {
+    constexpr std::int32_t long_way = 1 << 29;
+    const FinePoint a = fine(1, 1);
+    const auto behind_a = [&](std::int32_t x, std::int32_t y) {
+        return FinePoint{a.x + FinePixel::from_raw(x), a.y + FinePixel::from_raw(y)};
+    };
+    EXPECT_EQ(
+        circle_through(a, behind_a(long_way, long_way - 1), behind_a(-long_way - 1, -long_way)).status(),
+        Status::degenerate);
+    EXPECT_EQ(
+        circle_through(a, behind_a(long_way - 1, long_way), behind_a(-long_way, -long_way - 1)).status(),
+        Status::degenerate);
+}
+
+TEST(FitCircle, TakesPointsFartherFromTheCircleThanANumberHolds) {
+    const std::vector<FinePoint> points = {fine(0, 30000), fine(-32768, 30000), fine(30000, 30000),
+                                           fine(0, 32000)};
+    const Result<CircleFit> fit = fit_circle(span_of(points));
+    EXPECT_TRUE(fit.ok() || fit.status() == Status::degenerate);
+}
+
 TEST(FitCircle, NeitherCrashesNorHangsOnAnyPoints) {
     Random random(95);
     for (int round = 0; round < 3000; ++round) {

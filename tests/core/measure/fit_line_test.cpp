@@ -116,6 +116,16 @@ TEST(FitLine, SaysWhatIsWrong) {
     EXPECT_EQ(fit_line_robust(span_of(two), {}).status(), Status::scratch_too_small);
 }
 
+TEST(FitLineRobust, LeavesOutAPointFartherAwayThanANumberHolds) {
+    std::vector<FinePoint> points;
+    for (int i = -30000; i <= 30000; i += 10000) points.push_back(fine(i, i));
+    points.push_back(fine(32767, -32767));
+    const Result<LineFit> fit = robust(points);
+    ASSERT_TRUE(fit.ok());
+    EXPECT_EQ(fit->used, 7);
+    EXPECT_EQ(fit->line.direction, FineAngle::from_microdegrees(45000000));
+}
+
 TEST(FitLine, TakesTheFarthestPointsThereAre) {
     const FinePixel most = FinePixel::from_raw(2147483647);
     const FinePixel least = FinePixel::from_raw(-2147483647 - 1);

@@ -63,6 +63,11 @@ void draw_different(Random& random, std::ptrdiff_t bound, std::ptrdiff_t (&chose
     }
 }
 
+/// A signed distance without its sign; the largest negative one is held at the largest.
+constexpr FinePixel without_sign(FinePixel distance) {
+    return FinePixel::from_raw(saturate_cast<std::int32_t>(magnitude(distance.raw())));
+}
+
 /// 2.5 * 1.4826 * (1 + 5 / (n - p)) times the median.
 constexpr FinePixel agreement_limit(FinePixel median, std::ptrdiff_t points, int parameters) {
     const std::int64_t spare = maximum<std::int64_t>(points - parameters, 1);

@@ -140,9 +140,15 @@ inline bool probe_fits(Size size, const EdgeProbe& probe) {
     for (const FinePoint end : ends) {
         if (!can_sample(size, end)) return false;
         const FinePoint shift = line_offset(probe, 0);
+        const auto moved = [&](int way) {
+            const auto sum = [way](FinePixel a, FinePixel b) {
+                return FinePixel::from_raw(
+                    saturate_cast<std::int32_t>(std::int64_t{a.raw()} + std::int64_t{b.raw()} * way));
+            };
+            return FinePoint{sum(end.x, shift.x), sum(end.y, shift.y)};
+        };
         // The lines lie between the two outermost ones, and the image is convex.
-        if (!can_sample(size, {end.x + shift.x, end.y + shift.y})) return false;
-        if (!can_sample(size, {end.x - shift.x, end.y - shift.y})) return false;
+        if (!can_sample(size, moved(1)) || !can_sample(size, moved(-1))) return false;
     }
     return true;
 }

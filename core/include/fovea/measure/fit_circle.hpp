@@ -91,10 +91,11 @@ constexpr Result<Circle> circle_through(FinePoint a, FinePoint b, FinePoint c) {
     const std::int64_t x = round_divide(to_b.square() * to_c.y - to_c.square() * to_b.y, divisor);
     const std::int64_t y = round_divide(to_c.square() * to_b.x - to_b.square() * to_c.x, divisor);
     constexpr std::int64_t most = FinePixel::from_int(max_image_side).raw();
+    if (magnitude(x) > static_cast<std::uint64_t>(most) || magnitude(y) > static_cast<std::uint64_t>(most))
+        return Status::degenerate;
     const std::int64_t centre_x = x + a.x.raw();
     const std::int64_t centre_y = y + a.y.raw();
-    if (magnitude(x) > static_cast<std::uint64_t>(most) || magnitude(y) > static_cast<std::uint64_t>(most) ||
-        magnitude(centre_x) > static_cast<std::uint64_t>(most) ||
+    if (magnitude(centre_x) > static_cast<std::uint64_t>(most) ||
         magnitude(centre_y) > static_cast<std::uint64_t>(most))
         return Status::degenerate;
     const std::int64_t radius = hypotenuse(x, y);
@@ -117,7 +118,7 @@ struct CircleSums {
     std::int64_t cc = 0, cs = 0, ss = 0;  // 2^-28, below 2^39
     std::int64_t e = 0;                   // 2^-22, below 2^48
     std::int64_t ce = 0, se = 0;          // 2^-32, below 2^58
-    std::int64_t squares = 0;             // of e in 2^-16 px^2, below 2^58
+    std::int64_t squares = 0;             // of e up to 32768 px in 2^-16 px^2, below 2^58
 
     constexpr void add(const Circle& circle, FinePoint point) {
         const Offset offset(circle.centre, point);
@@ -136,7 +137,8 @@ struct CircleSums {
         // |distance| is below 2^39; with 22 bits of the direction the product fits.
         ce += (cosine >> 8) * distance >> 12;
         se += (sine >> 8) * distance >> 12;
-        squares += (distance >> finer) * (distance >> finer) >> 16;
+        const std::int64_t held = saturate_cast<std::int32_t>(distance >> finer);
+        squares += held * held >> 16;
     }
 };
 
@@ -232,8 +234,7 @@ inline Result<CircleFit> fit_circle_robust(Span<const FinePoint> points, Span<Fi
         return circle_through(three[0], three[1], three[2]);
     };
     const auto distance = [](const Circle& circle, FinePoint point) {
-        const FinePixel signed_distance = distance_from(circle, point);
-        return signed_distance.raw() < 0 ? -signed_distance : signed_distance;
+        return detail::without_sign(distance_from(circle, point));
     };
     const auto start = least_median<3, Circle>(points, through, distance, scratch);
     if (!start) return start.status();

@@ -132,8 +132,7 @@ inline Result<LineFit> fit_line_robust(Span<const FinePoint> points, Span<FinePi
         return Line{two[0], angle_of(x, y)};
     };
     const auto distance = [](const Line& line, FinePoint point) {
-        const FinePixel signed_distance = distance_from(line, point);
-        return signed_distance.raw() < 0 ? -signed_distance : signed_distance;
+        return detail::without_sign(distance_from(line, point));
     };
     const auto start = least_median<2, Line>(points, through, distance, scratch);
     if (!start) return start.status();
