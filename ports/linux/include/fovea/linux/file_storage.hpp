@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -23,8 +24,9 @@ namespace fovea::linux_port {
 /// Reads and replaces files. "-" is the standard input for load() and the standard output for save().
 class FileStorage {
 public:
-    /// The largest file load() takes: 256 MiB, so that a wrong name cannot fill the memory.
-    static constexpr std::size_t max_file = std::size_t{256} << 20;
+    /// max_file is the size of the largest file that load() takes, so that a wrong name cannot fill the
+    /// memory.
+    explicit FileStorage(std::size_t max_file = std::size_t{256} << 20) : max_file_(max_file) {}
 
     Result<Span<const std::uint8_t>> load(const char* name);
 
@@ -49,6 +51,7 @@ private:
     Status write_all(int file, Span<const std::uint8_t> bytes);
     Status replace(const std::string& path, Span<const std::uint8_t> bytes);
 
+    std::size_t max_file_;
     std::vector<std::uint8_t> bytes_;
     std::string problem_;
 };
@@ -63,11 +66,12 @@ inline Result<Span<const std::uint8_t>> FileStorage::load(const char* name) {
     Status status = Status::ok;
     for (;;) {
         const std::size_t have = bytes_.size();
-        if (have >= max_file) {
+        if (have > max_file_) {
             status = refuse(EFBIG);
             break;
         }
-        bytes_.resize(have + (have < 65536 ? 65536 : have));
+        // One byte more than allowed tells a file that is too large from one that just fits.
+        bytes_.resize(std::min(std::max(2 * have, std::size_t{65536}), max_file_ + 1));
         const ssize_t got = ::read(file, bytes_.data() + have, bytes_.size() - have);
         const int error = errno;
         bytes_.resize(have + static_cast<std::size_t>(got > 0 ? got : 0));
