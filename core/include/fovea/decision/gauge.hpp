@@ -105,7 +105,7 @@ inline std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts) 
 
 inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std::uint8_t> scratch,
                     ListView<PartResult> parts) {
-    if (image.empty()) return Status::empty_image;
+    if (Status s = detail::check_find_parts(image, recipe.locate); s != Status::ok) return s;
     if (!scale_in_range(recipe.scale)) return Status::bad_argument;
     const int capacity = parts.capacity();
     const std::int64_t lists =

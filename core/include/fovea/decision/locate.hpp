@@ -12,6 +12,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/decision/part_frame.hpp>
 #include <fovea/decision/recipe.hpp>
+#include <fovea/decision/recipe_range.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/measure/half_turn.hpp>
 #include <fovea/morphology/morphology.hpp>
@@ -170,10 +171,11 @@ inline std::int64_t find_parts_scratch(Size size, const LocateRule& rule) {
 
 namespace detail {
 
-inline bool rule_in_range(const LocateRule& rule) {
-    const auto share = [](std::int64_t millionths) { return millionths >= 0 && millionths <= 1000000; };
-    return rule.opening >= 1 && rule.opening % 2 == 1 && rule.opening <= max_element_side &&
-           share(rule.dark_quantile) && share(rule.bright_quantile);
+/// What find_parts() checks before its scratch.
+inline Status check_find_parts(ImageView<const Gray8> image, const LocateRule& rule) {
+    if (image.empty()) return Status::empty_image;
+    if (image.width() > max_moment_side || image.height() > max_moment_side) return Status::image_too_large;
+    return rule_in_range(rule) ? Status::ok : Status::bad_argument;
 }
 
 /// Thresholds rows and feeds them to the components; through a whole binary image where it is opened first.
@@ -208,9 +210,7 @@ inline Status components_of(ImageView<const Gray8> image, const LocateRule& rule
 
 inline Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, Span<std::uint8_t> scratch,
                          Threshold& threshold, ListView<Region> parts, ListView<Hole> holes) {
-    if (image.empty()) return Status::empty_image;
-    if (image.width() > max_moment_side || image.height() > max_moment_side) return Status::image_too_large;
-    if (!detail::rule_in_range(rule)) return Status::bad_argument;
+    if (Status s = detail::check_find_parts(image, rule); s != Status::ok) return s;
     const std::int64_t labels = connected_components_scratch(image.width());
     if (scratch.size() < find_parts_scratch(image.size(), rule) - labels) return Status::scratch_too_small;
     Arena arena(scratch);

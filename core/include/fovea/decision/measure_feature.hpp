@@ -14,6 +14,7 @@
 #include <fovea/decision/locate.hpp>
 #include <fovea/decision/part_frame.hpp>
 #include <fovea/decision/recipe.hpp>
+#include <fovea/decision/recipe_range.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/measure/edge_probe.hpp>
 #include <fovea/measure/fit_circle.hpp>
@@ -365,7 +366,7 @@ constexpr std::int64_t measure_feature_scratch(Size size) {
 inline Result<Measurement> measure_feature(const PartView& part, const Feature& feature,
                                            Span<std::uint8_t> scratch) {
     if (part.image.empty()) return Status::empty_image;
-    if (feature.probes < 3 || feature.probes > Feature::max_probes) return Status::bad_argument;
+    if (!detail::feature_in_range(feature)) return Status::bad_argument;
     if (scratch.size() < measure_feature_scratch(part.image.size())) return Status::scratch_too_small;
     detail::FeatureMeter meter(part, feature, scratch);
     switch (feature.kind) {
