@@ -179,10 +179,10 @@ inline Result<Measurement> FeatureMeter::between_edges(const Edge& first, const 
 }
 
 inline Result<Measurement> FeatureMeter::distance() {
+    if (feature_.first_edge == 0 || feature_.second_edge == 0) return Status::bad_argument;
     const Result<Span<const Edge>> edges = probe(feature_.from, feature_.to, feature_.lines);
     if (!edges) return edges.status();
     const auto place = [&](int number) { return number > 0 ? number - 1 : edges->size() + number; };
-    if (feature_.first_edge == 0 || feature_.second_edge == 0) return Status::bad_argument;
     const std::ptrdiff_t first = place(feature_.first_edge);
     const std::ptrdiff_t second = place(feature_.second_edge);
     if (first < 0 || second < 0 || first >= edges->size() || second >= edges->size() || first == second)
