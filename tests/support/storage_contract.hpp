@@ -28,7 +28,15 @@ StoredBytes loaded(Storage& storage, const std::string& name) {
     return bytes ? StoredBytes(bytes->begin(), bytes->end()) : StoredBytes();
 }
 
-/// Derived from by a fixture of each storage, which has storage() and name(text), a name that it may use.
+/// How GoogleTest names the one fixture of a suite.
+struct ByContract {
+    template <class Fixture>
+    static std::string GetName(int) {
+        return "keeps_the_contract";
+    }
+};
+
+/// A suite for the fixture of a storage, which has storage() and name(text), a name that it may use.
 template <class Fixture>
 class StorageContract : public Fixture {};
 

@@ -40,7 +40,7 @@ private:
     linux_port::FileStorage storage_;
 };
 
-INSTANTIATE_TYPED_TEST_SUITE_P(FileStorage, StorageContract, InAFolder);
+INSTANTIATE_TYPED_TEST_SUITE_P(FileStorage, StorageContract, InAFolder, ByContract);
 
 using FileStorage = InAFolder;
 

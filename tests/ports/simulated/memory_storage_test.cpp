@@ -18,7 +18,7 @@ private:
     simulated::MemoryStorage storage_;
 };
 
-INSTANTIATE_TYPED_TEST_SUITE_P(MemoryStorage, StorageContract, InMemory);
+INSTANTIATE_TYPED_TEST_SUITE_P(MemoryStorage, StorageContract, InMemory, ByContract);
 
 TEST(MemoryStorage, RefusesOneNameAsABrokenMediumWould) {
     simulated::MemoryStorage storage;
