@@ -79,27 +79,76 @@ inline std::optional<Scale> scale_from(const std::vector<std::int64_t>& lengths,
     return scale;
 }
 
-/// The scale that follows from the known length of the samples; problem says why there is none.
-inline std::optional<Scale> scale_of_known_length(const Samples& samples, const TeachOptions& options,
-                                                  std::string& problem) {
-    Proposer in_pixels(samples, rule_from(samples, Scale()), Scale(), options);
-    const Recipe recipe = in_pixels.propose();
+/// True if a scale makes every length the known one, to a hundredth and to the last place of a scale.
+inline bool explains(const Scale& scale, const std::vector<std::int64_t>& lengths,
+                     const std::vector<FineAngle>& directions, std::int64_t known_length) {
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        const UnitVector way = unit_vector(directions[i]);
+        const std::int64_t per_pixel = hypotenuse(multiply_divide(scale.x_per_pixel, way.x.raw(), Unit::one),
+                                                  multiply_divide(scale.y_per_pixel, way.y.raw(), Unit::one));
+        const std::int64_t wanted = multiply_divide(known_length, 1000000, lengths[i]);
+        if (std::abs(per_pixel - wanted) > wanted / 100 + 1) return false;
+    }
+    return true;
+}
+
+inline constexpr const char* lengths_disagree =
+    "--known-length gives no scale: the part is not equally long in all pictures, or its axis lies "
+    "otherwise; "
+    "give --mm-per-px";
+
+/// By how much a scale must grow along rows and columns for the samples to have their known length; problem
+/// says why that is not known.
+inline std::optional<Scale> growth_to_known_length(const Samples& samples, const TeachOptions& options,
+                                                   const Scale& scale, std::string& problem) {
+    Proposer proposer(samples, rule_from(samples, scale), scale, options);
+    const Recipe recipe = proposer.propose();
     for (const Feature& feature : recipe.features) {
         const bool round = text_of(feature.name) == "diameter";
         if (!round && text_of(feature.name) != "length") continue;
-        const std::vector<std::int64_t> lengths = in_pixels.meter().values_of(feature);
+        const std::vector<std::int64_t> lengths = proposer.meter().values_of(feature);
         // A diameter has no direction: with the same one everywhere there is one scale for rows and columns.
         const std::vector<FineAngle> directions =
-            round ? std::vector<FineAngle>(lengths.size()) : in_pixels.meter().directions_of(feature);
-        const std::optional<Scale> scale = scale_from(lengths, directions, *options.known_length);
-        if (!scale)
+            round ? std::vector<FineAngle>(lengths.size()) : proposer.meter().directions_of(feature);
+        const std::optional<Scale> growth = scale_from(lengths, directions, *options.known_length);
+        if (!growth)
             problem =
                 "--known-length gives no scale: a pixel would be below 10 nm or above 100 mm, or four times "
                 "as long one way as the other";
-        return scale;
+        if (growth && !explains(*growth, lengths, directions, *options.known_length)) {
+            problem = lengths_disagree;
+            return {};
+        }
+        return growth;
     }
     problem =
         "--known-length gives no scale: no two edges are as far apart as the part is long; give --mm-per-px";
+    return {};
+}
+
+/// The scale that follows from the known length of the samples; problem says why there is none.
+///
+/// Where rows and columns differ, the axis of a part is that of its squeezed picture until the scale is
+/// known, and with it what its length is: it is measured again with every scale that was found, until that
+/// stays.
+inline std::optional<Scale> scale_of_known_length(const Samples& samples, const TeachOptions& options,
+                                                  std::string& problem) {
+    constexpr int most_rounds = 6;
+    Scale scale;
+    for (int round = 0; round < most_rounds; ++round) {
+        const std::optional<Scale> growth = growth_to_known_length(samples, options, scale, problem);
+        if (!growth) return {};
+        scale.unit = growth->unit;
+        scale.x_per_pixel = multiply_divide(scale.x_per_pixel, growth->x_per_pixel, 1000000);
+        scale.y_per_pixel = multiply_divide(scale.y_per_pixel, growth->y_per_pixel, 1000000);
+        const auto small = [](std::int64_t millionths) { return std::abs(millionths - 1000000) < 500; };
+        if (scale.x_per_pixel == scale.y_per_pixel) return scale;
+        if (small(growth->x_per_pixel) && small(growth->y_per_pixel)) return scale;
+        if (!scale_in_range(scale)) break;
+    }
+    problem =
+        "--known-length gives no scale: the axis of the part lies otherwise in every picture; give "
+        "--mm-per-px";
     return {};
 }
 

@@ -86,6 +86,42 @@ TEST(TeachKnownLength, JudgesGoodPlatesInTwentyPosesWhereRowsAreFartherApart) {
               std::string::npos);
 }
 
+TEST(TeachKnownLength, IsTheSameWhereTheAxisOfThePictureIsNotThatOfThePart) {
+    // A corner that is cut off turns the axis against the edges, and otherwise in a squeezed picture: with
+    // the length taken along that axis, the rows came out 1.2 % too near to each other.
+    const Shape cut = [](double s, double t) {
+        return rectangle(107, 73)(s, t) && (s - (53.5 - 28)) / 28 + (t - (36.5 - 24)) / 24 <= 1;
+    };
+    const double stretch_y = 0.85;
+    const Taught taught = taught_from({squeezed(cut, -4, stretch_y, 620), squeezed(cut, 86, stretch_y, 621)},
+                                      known_length(53500000));
+    ASSERT_EQ(taught.problem, "");
+    EXPECT_NEAR(mm_of(taught.recipe.scale.x_per_pixel), 0.5, 0.5 * 0.001);
+    EXPECT_NEAR(mm_of(taught.recipe.scale.y_per_pixel), 0.5 / stretch_y, 0.5 / stretch_y * 0.001);
+}
+
+TEST(TeachKnownLength, RefusesAPartThatIsNotEquallyLongInAllPictures) {
+    // Squeezed, the second one is nearly square, and what lies along its rows is its height.
+    const double stretch_y = 0.83;
+    const std::string problem =
+        "--known-length gives no scale: the part is not equally long in all pictures, or its axis lies "
+        "otherwise; "
+        "give --mm-per-px";
+    EXPECT_EQ(taught_from({squeezed(rectangle(61, 51), 0, stretch_y, 622),
+                           squeezed(rectangle(61, 51), 90, stretch_y, 623)},
+                          known_length(61 * mm))
+                  .problem,
+              problem);
+    EXPECT_EQ(
+        taught_from({lying(longer_plate(-3), 0, 624), lying(longer_plate(3), 0, 625)}, known_length(45 * mm))
+            .problem,
+        problem);
+    EXPECT_EQ(
+        taught_from({lying(longer_plate(-1), 0, 626), lying(longer_plate(1), 0, 627)}, known_length(45 * mm))
+            .problem,
+        "");
+}
+
 TEST(TeachKnownLength, TakesTheDiameterOfADisc) {
     const Taught taught = taught_from({lying(disc(60), 0, 608)}, known_length(30 * mm));
     EXPECT_EQ(taught.problem, "");
