@@ -183,7 +183,6 @@ TEST_F(TeachCommand, SaysWhyThereIsNoPart) {
     const std::string nothing =
         "fovea teach: no part found: it must lie whole in the picture, on a ground of another brightness";
     refuses({"--out", "x", "white.pgm"}, "note: white.pgm: no part found: all pixels are alike\n" + nothing);
-    // Of the plate that lies half outside, the hole is bright and whole.
     io.put("cut.pgm",
            pgm_of(picture_of(one_part_size, {{rectangle(180, 70), 60, 120, 5}}, back_light(), 707)));
     refuses(

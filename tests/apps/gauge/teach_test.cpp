@@ -3,7 +3,6 @@
 // What is taught from good parts accepts good parts however they lie, and refuses others.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -65,7 +64,7 @@ TEST(Teach, AcceptsBrightPlatesWhenTaughtFromABrightOne) {
     accepts_in_twenty_poses(recipe, plate(), 180, 404, front_light());
 }
 
-TEST(Teach, DoesNotCareHowThePlateLaysWhenItWasTaught) {
+TEST(Teach, DoesNotCareHowThePlateLayWhenItWasTaught) {
     for (const double degrees : {23.0, 90.0, 131.0, -158.0}) {
         const Picture<Gray8> good = lying(plate(), degrees, 405);
         const Recipe recipe = recipe_of(taught_from({good}));
