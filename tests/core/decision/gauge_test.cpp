@@ -153,6 +153,12 @@ struct Spread {
     double deviation() const { return std::sqrt(std::max(squares / count - mean() * mean(), 0.0)); }
 };
 
+TEST(Gauge, TellsItsScratchWhenTheProgramIsCompiled) {
+    // A chip sizes a static array with it.
+    static_assert(gauge_scratch({160, 120}, LocateRule(), 4) > find_parts_scratch({160, 120}, LocateRule()));
+    static_assert(find_parts_scratch({160, 120}, LocateRule()) > connected_components_scratch(160));
+}
+
 TEST(Gauge, MeasuresAPlateInTwoHundredPosesToASmallFractionOfAPixel) {
     Random random(111);
     const Taught taught = taught_plate();

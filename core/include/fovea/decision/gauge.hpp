@@ -42,7 +42,7 @@ struct PartResult {
 };
 
 /// Scratch bytes for gauge() with room for so many parts.
-inline std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts);
+constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts);
 
 /// Measures every part in an image.
 ///
@@ -98,7 +98,7 @@ constexpr bool scale_in_range(const Scale& scale) {
            scale.x_per_pixel <= 4 * scale.y_per_pixel && scale.y_per_pixel <= 4 * scale.x_per_pixel;
 }
 
-inline std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts) {
+constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts) {
     return arena_bytes<Region>(parts) + arena_bytes<Hole>(detail::gauge_holes(parts)) +
            maximum(find_parts_scratch(size, rule), measure_feature_scratch(size));
 }

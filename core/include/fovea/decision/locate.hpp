@@ -72,7 +72,7 @@ inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const Locate
 inline Result<Threshold> threshold_of(const Histogram& histogram, const LocateRule& rule);
 
 /// Scratch bytes for find_parts(). With fewer, down to about a fifth, it works for images that are calm.
-inline std::int64_t find_parts_scratch(Size size, const LocateRule& rule);
+constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule);
 
 /// Finds the regions that a rule takes for parts, and their holes.
 ///
@@ -163,7 +163,7 @@ inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const Locate
     return PartMoments{*outline, *whole};
 }
 
-inline std::int64_t find_parts_scratch(Size size, const LocateRule& rule) {
+constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule) {
     const std::int64_t opened = rule.opening > 1 ? size.area() + opening_scratch(size) : 0;
     return arena_bytes<Histogram>(1) + arena_bytes<std::uint8_t>(size.width) + opened +
            connected_components_scratch(size.width);
