@@ -21,7 +21,9 @@ inline Command make_part_help() {
              {"size", "WxH", "of the picture; 640x480 if not given"},
              {"plate", "LxH", "length and height of the plate in px; 360x140"},
              {"cut", "LxH", "legs of the corner that is cut off; 60x40"},
-             {"holes", "X,Y,R;...", "round holes from the middle of the plate, or none;\n100,-4,30;-96,8,18"},
+             {"holes", "X,Y,R;...",
+              "round holes from the middle of the plate, or none;\n'100,-4,30;-96,8,18', in quotes because "
+              "of the ;"},
              {"at", "X,Y", "the middle of the plate in the picture; 320,240"},
              {"angle", "DEG", "turns the plate clockwise; 17"},
              {"blur", "PX", "standard deviation of the lens; 1"},
