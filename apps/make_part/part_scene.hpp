@@ -132,7 +132,7 @@ inline Picture<Gray8> render(const PartScene& scene) {
     Random random(scene.seed);
     for (std::size_t i = 0; i < covered.size(); ++i) {
         std::int64_t noise = -6 * 65536;  // the sum of twelve has the variance 1
-        for (int k = 0; k < 12; ++k) noise += random.next() >> 16;
+        for (int k = 0; k < 12 && scene.noise > 0; ++k) noise += random.next() >> 16;
         const std::int64_t level = std::int64_t{scene.ground_level} * 65536 +
                                    std::int64_t{covered[i]} * (scene.part_level - scene.ground_level) +
                                    multiply_divide(noise, scene.noise, 1000000);
