@@ -143,7 +143,26 @@ struct PointRange {
 };
 
 /// A line fitted to a range, cut at the feet of its ends.
-inline std::optional<Stretch> fitted_edge(const Outline& outline, PointRange range, const Scale& scale) {
+struct FittedEdge {
+    Stretch stretch;
+    FinePixel rms;  ///< of the distances of its points
+    FinePixel bow;  ///< how far its middle third is beside its ends
+    /// An arc has a bow of one and a half times its rms, noise of less than half.
+    bool straight() const { return bow < FinePixel::from_ratio(1, 8) || bow < rms; }
+};
+/// The mean distance of the middle third of points from a line, less that of the others, without its sign.
+inline FinePixel bow_of(const std::vector<FinePoint>& points, const Line& line) {
+    std::int64_t inner = 0;
+    std::int64_t outer = 0;
+    const std::size_t third = points.size() / 3;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        (i >= third && i < points.size() - third ? inner : outer) += distance_from(line, points[i]).raw();
+    const auto outer_count = static_cast<std::int64_t>(std::max<std::size_t>(2 * third, 1));
+    const auto inner_count = static_cast<std::int64_t>(points.size() - 2 * third);
+    return FinePixel::from_raw(
+        saturate_cast<std::int32_t>(std::abs(inner / inner_count - outer / outer_count)));
+}
+inline std::optional<FittedEdge> fitted_edge(const Outline& outline, PointRange range, const Scale& scale) {
     const std::size_t count = outline.points.size();
     const std::size_t step = (range.last - range.first) / static_cast<std::size_t>(max_fit_points) + 1;
     std::vector<FinePoint> points;
@@ -154,7 +173,9 @@ inline std::optional<Stretch> fitted_edge(const Outline& outline, PointRange ran
     const UnitVector way = unit_vector(fit->line.direction);
     const PartPoint centre = part_point(fit->line.point, scale);
     const auto foot = [&](PartPoint point) { return centre + stretched_by(way, along(point - centre, way)); };
-    return Stretch{foot(outline.points[range.first % count]), foot(outline.points[range.last % count])};
+    return FittedEdge{{foot(outline.points[range.first % count]), foot(outline.points[range.last % count])},
+                      fit->rms,
+                      bow_of(points, fit->line)};
 }
 
 /// The longest range around the middle of another that stays within a tolerance of a line; single points may
@@ -187,7 +208,8 @@ inline bool same_edge(PointRange one, PointRange two, std::size_t count) {
 }  // namespace detail
 
 /// The straight stretches of an outline that are longer than a sixth of it is wide: lines fitted to what lies
-/// within half a pixel of them, without a twelfth and six pixels at both ends so that corners stay out.
+/// within half a pixel of them, or three times the noise, without a twelfth and six pixels at both ends so
+/// that corners stay out.
 inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& scale) {
     std::vector<Stretch> edges;
     const std::size_t count = outline.points.size();
@@ -201,10 +223,12 @@ inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& 
         const detail::PointRange piece{corners[i],
                                        i + 1 < corners.size() ? corners[i + 1] : count + corners[0]};
         const std::size_t trim = (piece.last - piece.first) / 7;
-        const std::optional<Stretch> line =
+        const std::optional<detail::FittedEdge> line =
             detail::fitted_edge(outline, {piece.first + trim, piece.last - trim}, scale);
-        if (!line || line->length() < least / 3) continue;
-        const detail::PointRange range = detail::range_along(outline, *line, piece, pixel / 2);
+        if (!line || line->stretch.length() < least / 3) continue;
+        const std::int64_t tolerance =
+            std::max(pixel / 2, multiply_divide(3 * line->rms.raw(), pixel, FinePixel::one));
+        const detail::PointRange range = detail::range_along(outline, line->stretch, piece, tolerance);
         const Stretch whole{outline.points[range.first % count], outline.points[range.last % count]};
         const std::int64_t length = whole.length();
         if (length < least || std::any_of(ranges.begin(), ranges.end(), [&](detail::PointRange other) {
@@ -215,11 +239,11 @@ inline std::vector<Stretch> straight_edges(const Outline& outline, const Scale& 
         const auto points = static_cast<std::int64_t>(range.last - range.first);
         const auto cut =
             static_cast<std::size_t>(multiply_divide(points, std::max(length / 12, 6 * pixel), length));
-        const std::optional<Stretch> edge =
+        const std::optional<detail::FittedEdge> edge =
             detail::fitted_edge(outline, {range.first + cut, range.last - cut}, scale);
-        if (!edge) continue;
+        if (!edge || !edge->straight()) continue;
         ranges.push_back(range);
-        edges.push_back(*edge);
+        edges.push_back(edge->stretch);
     }
     return edges;
 }
@@ -245,7 +269,7 @@ struct Facing {
     std::int64_t breadth = 0;
 };
 
-/// Nothing if the edges are not parallel to a degree, or hardly face.
+/// Square to the first edge. Nothing if the edges are not parallel to a degree, or hardly face.
 inline std::optional<Facing> facing_edges(const Stretch& one, const Stretch& two, std::int64_t pixel) {
     const std::int32_t off = (two.direction() - one.direction() - FineAngle::half_turn()).signed_raw();
     if (magnitude(off) > 0x00b60b61u) return {};  // one degree
@@ -256,7 +280,7 @@ inline std::optional<Facing> facing_edges(const Stretch& one, const Stretch& two
         std::min(detail::along(one.to - one.from, way), detail::along(two.from - one.from, way));
     // The part lies to the right of its outline, clockwise on screen.
     const std::int64_t far_side = detail::along(point_between(two.from, two.to, 1, 2) - one.from, across);
-    if (last - first < 20 * pixel || far_side < 4 * pixel) return {};
+    if (last - first < 12 * pixel || far_side < 4 * pixel) return {};
     const PartPoint middle = one.from + detail::stretched_by(way, (first + last) / 2);
     const std::int64_t margin = 6 * pixel;
     return Facing{middle - detail::stretched_by(across, margin),

@@ -55,6 +55,8 @@ public:
         propose_with(1);
         return recipe_;
     }
+    /// Keeps features whatever the samples differ by: they do while their scale is not known.
+    void keep_all() { keep_all_ = true; }
     const std::vector<std::string>& notes() const { return notes_; }
     const SampleMeter& meter() const { return meter_; }
 
@@ -111,23 +113,29 @@ private:
         return 0;
     }
 
-    /// Adds a feature with its nominal value and tolerances, unless a sample refuses it. A part whose ends
-    /// are alike is measured both ways, because nobody knows how it will lie.
+    /// The values of a feature on every sample; empty if one of them has none. A part whose ends are alike is
+    /// measured both ways, because nobody knows how it will lie.
+    std::vector<std::int64_t> values_of(const Feature& feature) const {
+        std::vector<std::int64_t> values = meter_.values_of(feature);
+        if (values.empty() || recipe_.locate.orientation != OrientationRule::symmetric) return values;
+        const std::vector<std::int64_t> turned = meter_.values_of(feature, FineAngle::half_turn());
+        if (turned.empty()) return {};
+        values.insert(values.end(), turned.begin(), turned.end());
+        return values;
+    }
+
+    /// Adds a feature with its nominal value and tolerances, unless a sample refuses it.
     bool add(Feature feature, const std::string& name) {
         copy_name(feature.name, name);
         feature.smoothing = smoothing_for(length_in(feature));
-        std::vector<std::int64_t> values = meter_.values_of(feature);
+        const std::vector<std::int64_t> values = values_of(feature);
         if (values.empty()) return false;
-        if (recipe_.locate.orientation == OrientationRule::symmetric) {
-            const std::vector<std::int64_t> turned = meter_.values_of(feature, FineAngle::half_turn());
-            if (turned.empty()) return false;
-            values.insert(values.end(), turned.begin(), turned.end());
-        }
         const Spread spread = spread_of(values);
         feature.tolerance = proposed_tolerance(feature, recipe_.scale, spread, options_.tolerance);
         const std::string note = spread_note(feature, recipe_.scale, spread, options_.tolerance);
         if (!note.empty()) notes_.push_back(note);
-        return !too_wide(feature, spread) && recipe_.features.push(feature) == Status::ok;
+        if (!keep_all_ && too_wide(feature, spread)) return false;
+        return recipe_.features.push(feature) == Status::ok;
     }
 
     bool propose_round() {
@@ -151,7 +159,9 @@ private:
 
     /// The probe between two edges that face away from each other; nothing if they do not.
     std::optional<Feature> between_parallel(const Stretch& one, const Stretch& two) const {
-        const std::optional<Facing> facing = facing_edges(one, two, pixel_);
+        // Square to the longer one, whose direction is known better.
+        const std::optional<Facing> facing =
+            one.length() >= two.length() ? facing_edges(one, two, pixel_) : facing_edges(two, one, pixel_);
         if (!facing) return {};
         Feature feature;
         feature.kind = FeatureKind::width;
@@ -348,16 +358,19 @@ private:
             propose_hole(found[i].feature, found[i].round, "hole_" + std::to_string(i + 1));
     }
     void propose_hole(Feature feature, bool round, const std::string& name) {
+        if (values_of(feature).empty()) {
+            const bool either_way = recipe_.locate.orientation == OrientationRule::symmetric;
+            notes_.push_back(name + (either_way
+                                         ? " lies elsewhere when the part is turned by half, which its "
+                                           "outline does not tell: it is not measured"
+                                         : " is not found on every part"));
+            return;
+        }
+        const Feature position = feature;
         feature.kind = FeatureKind::hole_diameter;
         if (round && !add(feature, name))
             notes_.push_back(name + " has no diameter: its edge is not seen as a circle on every part");
-        feature.kind = FeatureKind::position;
-        if (add(feature, name + "_position")) return;
-        notes_.push_back(
-            name + (recipe_.locate.orientation == OrientationRule::symmetric
-                        ? " lies elsewhere when the part is turned by half, which its outline does not tell: "
-                          "its place is not measured"
-                        : " is not found on every part"));
+        add(position, name + "_position");
     }
 
     const Samples& samples_;
@@ -370,6 +383,7 @@ private:
     std::int64_t pixel_ = 0;
     SquarePixels blur_;  ///< of the edges, once it is known
     int start_ = 1;      ///< the least smoothing
+    bool keep_all_ = false;
     std::vector<std::string> notes_;
 };
 

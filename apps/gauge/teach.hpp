@@ -102,6 +102,7 @@ inline constexpr const char* lengths_disagree =
 inline std::optional<Scale> growth_to_known_length(const Samples& samples, const TeachOptions& options,
                                                    const Scale& scale, std::string& problem) {
     Proposer proposer(samples, rule_from(samples, scale), scale, options);
+    proposer.keep_all();
     const Recipe recipe = proposer.propose();
     for (const Feature& feature : recipe.features) {
         const bool round = text_of(feature.name) == "diameter";

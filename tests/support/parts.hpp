@@ -60,6 +60,10 @@ inline Shape stadium(double length, double height) {
         return std::hypot(std::max(std::abs(s) - (length - height) / 2, 0.0), t) <= height / 2;
     };
 }
+/// 180 long and 80 wide at its left end.
+inline Shape triangle() {
+    return [](double s, double t) { return std::abs(s) <= 90 && std::abs(t) <= 40 * (90 - s) / 180; };
+}
 inline Shape l_shape() { return with(rectangle(120, 36), rectangle(36, 90), -42, -45); }
 inline Shape t_shape() { return with(rectangle(120, 30), rectangle(30, 80), 0, 50); }
 inline Shape wave(double radius, double depth, int waves) {

@@ -74,6 +74,25 @@ TEST_F(TeachCommand, WritesTheRecipeAloneToTheStandardOutput) {
     EXPECT_EQ(io.text("-"), io.text("r.toml"));
 }
 
+TEST_F(TeachCommand, KeepsTheRecipeThatItReplaces) {
+    EXPECT_EQ(run({"--out", "r.toml", "good.pgm"}), apps::exit_ok);
+    const std::string taught = io.text("r.toml");
+    // The same again replaces nothing.
+    EXPECT_EQ(run({"--out", "r.toml", "good.pgm"}), apps::exit_ok);
+    EXPECT_EQ(io.files.files.count("r.toml~"), 0u);
+    io.put("r.toml", "# mine\n" + taught);
+    EXPECT_EQ(run({"--out", "r.toml", "good.pgm"}), apps::exit_ok);
+    EXPECT_EQ(io.text("r.toml"), taught);
+    EXPECT_EQ(io.text("r.toml~"), "# mine\n" + taught);
+    EXPECT_EQ(lines_of(io.out).back(), "the recipe before is r.toml~");
+}
+
+TEST_F(TeachCommand, NeverWritesOverAPicture) {
+    // As a shell makes it of --out *.pgm when the recipe's name is forgotten.
+    refuses({"--out", "good.pgm", "other.pgm"},
+            "fovea teach: --out would overwrite the picture good.pgm; give the recipe another name");
+}
+
 TEST_F(TeachCommand, TeachesFromThePictureOnTheStandardInput) {
     io.put("-", io.text("good.pgm"));
     EXPECT_EQ(run({"--out", "r.toml", "-"}), apps::exit_ok) << io.errors();

@@ -65,7 +65,7 @@ TEST(TeachKnownLength, MakesAScaleForRowsAndOneForColumnsFromTwoDirections) {
         EXPECT_NEAR(mm_of(scale.y_per_pixel), 0.25 / stretch_y, 0.25 / stretch_y * scale_error / stretch_y);
         EXPECT_NEAR(nominal_of(taught.recipe, "length"), 45, 0.005);
         EXPECT_NEAR(nominal_of(taught.recipe, "width_1"), 17.5, 0.02);
-        EXPECT_NEAR(nominal_of(taught.recipe, "hole_1"), 7.5, 0.02);
+        EXPECT_NEAR(nominal_of(taught.recipe, "hole_1"), 4.5, 0.02);
         for (const Picture<Gray8>& picture : good) EXPECT_EQ(verdicts_of(picture, taught.recipe), "ok");
     }
 }
@@ -142,7 +142,7 @@ TEST(TeachKnownLength, RefusesWhatGivesNoScale) {
     EXPECT_EQ(taught_from({good}, known_length(18100 * mm)).problem, out_of_range);
     EXPECT_EQ(taught_from({good}, known_length(17900 * mm)).problem, "");
     EXPECT_EQ(
-        taught_from({lying(l_shape(), 12, 610)}, known_length(45 * mm)).problem,
+        taught_from({lying(triangle(), 12, 610)}, known_length(45 * mm)).problem,
         "--known-length gives no scale: no two edges are as far apart as the part is long; give --mm-per-px");
 }
 
@@ -183,7 +183,7 @@ TEST(TeachTolerance, SaysThatGoodPartsDifferByMore) {
         taught_from({lying(longer_plate(-0.5), 0, 617), lying(longer_plate(0.5), 0, 618)}, options);
     ASSERT_FALSE(taught.notes.empty());
     EXPECT_EQ(taught.notes[0].compare(0, 26, "length differs by up to 0."), 0) << taught.notes[0];
-    EXPECT_NE(taught.notes[0].find(" px from the mean of the good parts; that is more than --tolerance"),
+    EXPECT_NE(taught.notes[0].find(" px from the mean of what was measured; that is more than --tolerance"),
               std::string::npos);
     EXPECT_EQ(feature_named(taught.recipe, "length")->tolerance.plus, Decimal{300000});
 }

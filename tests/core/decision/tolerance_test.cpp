@@ -40,15 +40,15 @@ TEST(Tolerance, JudgesTheSameWhenValueAndNominalMoveTogether) {
     }
 }
 
-TEST(Verdict, OfAPartIsUnmeasuredBeforeNotOkBeforeOk) {
+TEST(Verdict, OfAPartIsNotOkBeforeUnmeasuredBeforeOk) {
     for (const Verdict value : every_verdict) {
         const Verdict expected = value == Verdict::ok           ? Verdict::ok
                                  : value == Verdict::unmeasured ? Verdict::unmeasured
                                                                 : Verdict::not_ok;
         EXPECT_EQ(combine(Verdict::ok, value), expected);
-        EXPECT_EQ(combine(Verdict::unmeasured, value), Verdict::unmeasured);
-        EXPECT_EQ(combine(Verdict::not_ok, value),
-                  value == Verdict::unmeasured ? Verdict::unmeasured : Verdict::not_ok);
+        EXPECT_EQ(combine(Verdict::unmeasured, value),
+                  expected == Verdict::not_ok ? Verdict::not_ok : Verdict::unmeasured);
+        EXPECT_EQ(combine(Verdict::not_ok, value), Verdict::not_ok);
     }
 }
 
