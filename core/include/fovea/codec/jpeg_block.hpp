@@ -75,7 +75,7 @@ static_assert((full_range & (full_range + 1)) == 0, "an OR stays within a range 
 inline void Quantiser::build(Span<const std::uint8_t> steps) {
     const bool wide = steps.size() == 128;
     for (int k = 0; k < 64; ++k)
-        step[k] = wide ? static_cast<std::uint16_t>(steps[2 * k] << 8 | steps[2 * k + 1]) : steps[k];
+        step[k] = static_cast<std::uint16_t>(wide ? steps[2 * k] << 8 | steps[2 * k + 1] : steps[k]);
 }
 
 inline Status decode_block(BitReader& reader, const HuffmanTable& dc_code, const HuffmanTable& ac_code,
