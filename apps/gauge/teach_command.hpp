@@ -113,7 +113,7 @@ std::string save_recipe(Io& io, const std::string& name, const std::string& text
     if (old && picture_format(*old) != PictureFormat::unknown)
         return "fovea teach: --out would overwrite the picture " + name + "; give the recipe another name";
     if (old && !old->empty() && std::string(old->begin(), old->end()) != text) {
-        const std::string problem = save(name + "~", *old);
+        std::string problem = save(name + "~", *old);
         if (!problem.empty()) return problem;
         note = "the recipe before is " + name + "~\n";
     }
