@@ -47,7 +47,7 @@ public:
     const std::string& problem() const { return problem_; }
     const std::vector<std::string>& operands() const { return operands_; }
     bool has(const std::string& name) const { return find(name) != nullptr; }
-    /// The value given last, or otherwise.
+    /// The value given, or otherwise.
     std::string value(const std::string& name, const std::string& otherwise = "") const {
         const Given* given = find(name);
         return given != nullptr ? given->value : otherwise;
@@ -90,16 +90,16 @@ private:
             else
                 fail(name + " needs a value: " + name + " " + option->value);
         }
+        if (has(option->name)) fail(name + " is given twice");
         given_.push_back({option->name, value});
     }
     void fail(const std::string& problem) {
         if (problem_.empty()) problem_ = problem;
     }
     const Given* find(const std::string& name) const {
-        const Given* last = nullptr;
         for (const Given& given : given_)
-            if (given.name == name) last = &given;
-        return last;
+            if (given.name == name) return &given;
+        return nullptr;
     }
 
     std::vector<Given> given_;

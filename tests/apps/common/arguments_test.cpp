@@ -109,9 +109,13 @@ TEST(Arguments, DoNotTakeAPrefixForAnOption) {
     EXPECT_EQ(parse({"--outer", "3"}).problem(), "unknown option --outer; did you mean --out?");
 }
 
-TEST(Arguments, LetTheLastOfARepeatedOptionWin) {
-    EXPECT_EQ(parse({"--out", "a", "--out=b", "--out", "c"}).value("out"), "c");
-    EXPECT_EQ(parse({"--out", "a", "--out="}).value("out", "other"), "");
+TEST(Arguments, RefuseAnOptionThatIsGivenTwice) {
+    EXPECT_EQ(parse({"--out", "a", "--out=b"}).problem(), "--out is given twice");
+    EXPECT_EQ(parse({"--out=a", "--dark", "--out", "a"}).problem(), "--out is given twice");
+    EXPECT_EQ(parse({"--dark", "cake", "--dark"}).problem(), "--dark is given twice");
+    EXPECT_EQ(parse({"--out", "a", "--", "--out", "b"}).problem(), "");
+    // Help may be called for as often as one likes.
+    EXPECT_EQ(parse({"--help", "-h"}).problem(), "");
 }
 
 TEST(Arguments, ReportTheFirstProblem) {
