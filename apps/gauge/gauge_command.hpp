@@ -131,7 +131,8 @@ ExitCode gauge_image(Io& io, const std::string& job, const RecipeFile& file, con
     if (parts.empty()) code = exit_failed;
     if (!problem.empty()) {
         io.complain(problem);
-        if (json) io.print(json_no_part(name, problem));
+        const std::size_t named = problem.compare(0, name.size(), name) == 0 ? name.size() + 2 : 0;
+        if (json) io.print(json_no_part(name, problem.substr(std::min(named, problem.size()))));
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const PartResult& part = parts[i];

@@ -79,7 +79,9 @@ inline std::string reason_of(const FeatureResult& result, const Feature& feature
     }
     switch (feature.kind) {
         case FeatureKind::distance: return "fewer edges than asked for along the probe";
-        case FeatureKind::width: return "the probe does not cross the part";
+        case FeatureKind::width:
+            return "no edge strong enough along the probe: is it out of focus, or does it not cross the "
+                   "part?";
         case FeatureKind::diameter:
         case FeatureKind::angle: return "less than half of the probes agree on an edge";
         case FeatureKind::hole_diameter: return "no round hole within `search` of `centre`";
@@ -95,10 +97,10 @@ inline std::string reason_of(const PartResult& part, int feature, const Recipe& 
     return problem.empty() ? reason_of(part.features[feature], recipe.features[feature]) : problem;
 }
 
-/// "length 40.003 mm", with what is wrong behind it.
+/// "length 40.003 mm", with what is wrong behind it. Why something was not measured stands elsewhere.
 inline std::string human_feature(const FeatureResult& result, const Feature& feature, const Scale& scale) {
     const std::string name = detail::text_of(feature.name);
-    if (result.status != Status::ok) return name + " NOT MEASURED (" + reason_of(result, feature) + ")";
+    if (result.status != Status::ok) return name + " NOT MEASURED";
     const Decimal value = result.measurement.value;
     const Tolerance& tolerance = feature.tolerance;
     const bool low = result.verdict == Verdict::low;
@@ -115,15 +117,21 @@ inline std::string human_feature(const FeatureResult& result, const Feature& fea
     return text;
 }
 
-/// The line of a part.
+/// The line of a part: first the features that are not OK, then the others, both in the order of the recipe.
 inline std::string human_part(const std::string& image, int index, const PartResult& part,
                               const Recipe& recipe) {
     std::string text =
         one_line(image) + " part " + std::to_string(index) + ": " + human_verdict(part.verdict);
-    const std::string problem = orientation_problem(part.pose.orientation);
-    if (!problem.empty()) text += " (" + problem + ")";
-    for (int i = 0; problem.empty() && i < part.feature_count; ++i)
-        text += (i == 0 ? "  " : ", ") + human_feature(part.features[i], recipe.features[i], recipe.scale);
+    const Status orientation = part.pose.orientation;
+    if (orientation != Status::ok)
+        text += orientation == Status::undecided ? " (ends undecided)" : " (no clear axis)";
+    const char* before = "  ";
+    for (const bool ok : {false, true})
+        for (int i = 0; orientation == Status::ok && i < part.feature_count; ++i) {
+            if ((part.features[i].verdict == Verdict::ok) != ok) continue;
+            text += before + human_feature(part.features[i], recipe.features[i], recipe.scale);
+            before = ", ";
+        }
     const PartFrame& frame = part.pose.frame;
     text += "  [x " + number(decimal_of(frame.origin().x), 2) + ", y " +
             number(decimal_of(frame.origin().y), 2) + " px, " + number(decimal_of(frame.angle()), 2) +
@@ -163,7 +171,7 @@ inline std::string json_part(const std::string& image, int index, const PartResu
     return text + "],\"verdict\":\"" + name_of(part.verdict) + "\"}\n";
 }
 
-/// The line of an image in which no part was judged.
+/// The line of an image in which no part was judged; the problem does not name the image again.
 inline std::string json_no_part(const std::string& image, const std::string& problem) {
     return "{\"image\":" + json_string(image) + ",\"part\":null,\"error\":" + json_string(problem) +
            ",\"verdict\":\"unmeasured\"}\n";
