@@ -71,22 +71,29 @@ bool load_gray(Storage& storage, const std::string& name, Picture<Gray8>& pictur
     return false;
 }
 
+/// True if a name ends with one of the endings in "a|b|c", capitals or not.
+inline bool ends_with_one_of(const std::string& name, const char* endings) {
+    for (const std::string& ending : split(endings, '|'))
+        if (name.size() >= ending.size() && small_letters(name.substr(name.size() - ending.size())) == ending)
+            return true;
+    return false;
+}
+
+/// Why save_picture() would refuse a name: it promises a format that is not written. "" if it would not.
+inline std::string picture_name_problem(const std::string& name) {
+    if (!ends_with_one_of(name, ".jpg|.jpeg|.bmp|.tif|.tiff|.gif|.webp")) return "";
+    return name + ": fovea writes PNG, PGM and PPM; name it .png";
+}
+
 /// Writes a picture: PGM or PPM if the name says so, else PNG. Refuses a name that promises another format.
 template <class Storage, class Pixel>
 bool save_picture(Storage& storage, const std::string& name, const Picture<Pixel>& picture,
                   std::string& problem) {
-    const auto ends_with_one_of = [&](const char* endings) {
-        for (const std::string& ending : split(endings, '|'))
-            if (name.size() >= ending.size() &&
-                small_letters(name.substr(name.size() - ending.size())) == ending)
-                return true;
-        return false;
-    };
-    if (ends_with_one_of(".jpg|.jpeg|.bmp|.tif|.tiff|.gif|.webp")) {
-        problem = name + ": fovea writes PNG, PGM and PPM; name it .png";
+    if (const std::string refusal = picture_name_problem(name); !refusal.empty()) {
+        problem = refusal;
         return false;
     }
-    const bool pnm = ends_with_one_of(".pgm|.ppm|.pnm");
+    const bool pnm = ends_with_one_of(name, ".pgm|.ppm|.pnm");
     const std::int64_t room =
         pnm ? encoded_pnm_bytes<Pixel>(picture.size) : encoded_png_bytes<Pixel>(picture.size);
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(room));

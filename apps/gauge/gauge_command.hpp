@@ -198,6 +198,8 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
     };
     if (problem.empty() && explain_name == "-")
         problem = "--explain writes a file; the standard output has the results";
+    if (const std::string refusal = picture_name_problem(explain_name); problem.empty() && !refusal.empty())
+        problem = "--explain " + refusal;
     for (std::size_t i = 0; problem.empty() && i < images.size(); ++i)
         if (const std::string picture = picture_of(i);
             picture == job || std::find(images.begin(), images.end(), picture) != images.end())

@@ -88,6 +88,8 @@ inline std::string overwritten(const Arguments& arguments) {
     const std::vector<std::string>& pictures = arguments.operands();
     const std::string explain_name = arguments.value("explain");
     if (explain_name == "-") return "--explain writes a file; give it a name";
+    if (const std::string refusal = picture_name_problem(explain_name); !refusal.empty())
+        return "--explain " + refusal;
     for (const char* option : {"out", "explain"}) {
         const std::string name = arguments.value(option);
         if (name != "-" && std::find(pictures.begin(), pictures.end(), name) != pictures.end())

@@ -424,8 +424,13 @@ TEST_F(GaugeCommand, EndsWithTwoWhenTheAnnotatedPictureCannotBeWritten) {
     EXPECT_EQ(run({"--job", "r.toml", "--explain", "out.png", "good.pgm"}), apps::exit_failed);
     EXPECT_EQ(io.errors(), "out.png: simulated fault\n");
     EXPECT_EQ(lines_of(io.out).size(), 1u);
-    EXPECT_EQ(run({"--job", "r.toml", "--explain", "out.jpg", "good.pgm"}), apps::exit_failed);
-    EXPECT_EQ(io.errors(), "out.jpg: fovea writes PNG, PGM and PPM; name it .png\n");
+}
+
+TEST_F(GaugeCommand, RefusesANameOfAnotherFormatBeforeItMeasures) {
+    refuses({"--job", "r.toml", "--explain", "out.jpg", "good.pgm"},
+            "fovea gauge: --explain out.jpg: fovea writes PNG, PGM and PPM; name it .png");
+    refuses({"--job", "r.toml", "--explain", "nodir/x.TIFF", "good.pgm", "bad.pgm"},
+            "fovea gauge: --explain nodir/x.TIFF: fovea writes PNG, PGM and PPM; name it .png");
 }
 
 // ---- Formats -----------------------------------------------------------------------------------

@@ -259,8 +259,12 @@ TEST_F(TeachCommand, EndsWithTwoWhenAFileCannotBeWritten) {
     EXPECT_EQ(run({"--out", "r.toml", "--explain", "x", "good.pgm"}), apps::exit_failed);
     EXPECT_EQ(io.errors(), "x: simulated fault\n");
     EXPECT_TRUE(io.has("r.toml"));
-    EXPECT_EQ(run({"--out", "r.toml", "--explain", "e.jpg", "good.pgm"}), apps::exit_failed);
-    EXPECT_EQ(io.errors(), "e.jpg: fovea writes PNG, PGM and PPM; name it .png\n");
+}
+
+TEST_F(TeachCommand, RefusesANameOfAnotherFormatBeforeItTeaches) {
+    refuses({"--out", "new.toml", "--explain", "e.jpg", "good.pgm"},
+            "fovea teach: --explain e.jpg: fovea writes PNG, PGM and PPM; name it .png");
+    EXPECT_FALSE(io.has("new.toml"));
 }
 
 }  // namespace
