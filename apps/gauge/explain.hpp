@@ -15,13 +15,16 @@
 #include <fovea/draw/text.hpp>
 
 #include <common/picture_file.hpp>
+#include <gauge/left_out.hpp>
 #include <gauge/report.hpp>
 
 namespace fovea::apps {
 
-/// Draws results over the image they were measured in. Small images are magnified.
+/// Draws results over the image they were measured in, and what was left out. Small images are magnified.
+/// reason says why there is no part, "" if there is one.
 Picture<Rgb888> explain(const Picture<Gray8>& image, const Recipe& recipe,
-                        const std::vector<PartResult>& parts);
+                        const std::vector<PartResult>& parts, const LeftOut& left_out = {},
+                        const std::string& reason = "");
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -58,20 +61,37 @@ public:
     void add(int index, const PartResult& part) {
         const Rgb888 colour = colour_of(part.verdict);
         const Rectangle& box = part.box;
-        draw(draw_rectangle(picture_.view(),
-                            {box.x * zoom_, box.y * zoom_, box.width * zoom_, box.height * zoom_}, colour));
+        frame_box(box, colour);
         const PartFrame& frame = part.pose.frame;
         const std::int64_t reach = maximum(box.width, box.height) * recipe_.scale.x_per_pixel / 4;
         if (part.pose.orientation == Status::ok && recipe_.locate.orientation != OrientationRule::none)
             arrow(frame.to_image({0, 0}), frame.to_image({reach, 0}));
         draw(draw_cross(picture_.view(), place(frame.origin()), 3 * zoom_, colour_frame));
-        for (int i = 0; i < part.feature_count; ++i) add_feature(part, part.features[i], recipe_.features[i]);
-        label({box.x * zoom_, box.y * zoom_ - 16},
+        const Point corner{box.x * zoom_, box.y * zoom_ - 16};
+        label(corner,
               "part " + std::to_string(index) + " " +
                   (part.verdict == Verdict::ok       ? "OK"
                    : part.verdict == Verdict::not_ok ? "NOT OK"
                                                      : "NOT JUDGED"),
               colour);
+        if (part.pose.orientation != Status::ok) return;
+        // Where the parts' labels stand, a count has no place of its own.
+        for (int i = 0; i < part.feature_count; ++i)
+            if (recipe_.features[i].kind == FeatureKind::hole_count)
+                label(corner, human_feature(part.features[i], recipe_.features[i], recipe_.scale),
+                      colour_of(part.features[i].verdict));
+        for (int i = 0; i < part.feature_count; ++i)
+            if (recipe_.features[i].kind != FeatureKind::hole_count)
+                add_feature(frame, part.features[i], recipe_.features[i]);
+    }
+
+    void add_left_out(const Region& region, const std::string& why) {
+        frame_box(region.box, colour_unmeasured);
+        label({region.box.x * zoom_, region.box.y * zoom_ - 16}, why, colour_unmeasured);
+    }
+
+    void add_reason(const std::string& reason) {
+        if (!reason.empty()) label({0, 0}, reason, colour_unmeasured);
     }
 
     /// Labels come last, so that no line crosses a number.
@@ -107,44 +127,54 @@ private:
         if (from && to) draw(draw_arrow(picture_.view(), place(*from), place(*to), colour_frame, 6 * zoom_));
     }
 
-    void add_feature(const PartResult& part, const FeatureResult& result, const Feature& feature) {
-        const PartFrame& frame = part.pose.frame;
-        const Measurement& found = result.measurement;
-        const Rgb888 colour = colour_of(result.verdict);
-        if (part.pose.orientation != Status::ok || feature.kind == FeatureKind::hole_count) return;
-        const bool along = feature.kind == FeatureKind::distance || feature.kind == FeatureKind::width;
-        const bool angle = feature.kind == FeatureKind::angle;
-        if (along || angle) line(frame.to_image(feature.from), frame.to_image(feature.to), colour_probe);
-        if (angle) line(frame.to_image(feature.second_from), frame.to_image(feature.second_to), colour_probe);
-        const PartPoint expected =
-            along || angle ? point_between(feature.from, feature.to, 1, 2) : feature.centre;
-        Result<FinePoint> where = frame.to_image(expected);
-        if (result.status == Status::ok) {
-            if (along || angle) line(found.marks[0], found.marks[1], colour);
-            if (angle) line(found.marks[2], found.marks[3], colour);
-            if (feature.kind == FeatureKind::diameter || feature.kind == FeatureKind::hole_diameter)
-                where = circle(frame, found, colour);
-            for (int i = 0; i < found.mark_count; ++i) {
-                const Point mark = place(found.marks[i]);
-                if (feature.kind == FeatureKind::position && i == 1)
-                    draw(draw_diagonal_cross(picture_.view(), mark, 2 * zoom_, colour_probe));
-                else
-                    draw(draw_cross(picture_.view(), mark, 3 * zoom_, colour));
-            }
-        }
-        if (!where) return;
-        if (along && result.status == Status::ok) where = found.marks[1];
-        if (angle && result.status == Status::ok) where = found.marks[2];
-        const Point corner = place(*where);
-        const std::string text = result.status == Status::ok ? human_feature(result, feature, recipe_.scale)
-                                                             : text_of(feature.name) + " ?";
-        label({corner.x + 4, corner.y + 4}, text, colour);
+    void frame_box(const Rectangle& box, Rgb888 colour) {
+        draw(draw_rectangle(picture_.view(),
+                            {box.x * zoom_, box.y * zoom_, box.width * zoom_, box.height * zoom_}, colour));
     }
 
-    /// Draws a measured circle and answers the place of its label.
-    Result<FinePoint> circle(const PartFrame& frame, const Measurement& found, Rgb888 colour) {
-        const PartPoint centre = frame.to_part(found.marks[0]);
-        const std::int64_t radius = found.value.millionths / 2;
+    void add_feature(const PartFrame& frame, const FeatureResult& result, const Feature& feature) {
+        const bool measured = result.status == Status::ok;
+        const Rgb888 colour = measured ? colour_probe : colour_unmeasured;
+        const bool along = feature.kind == FeatureKind::distance || feature.kind == FeatureKind::width;
+        const bool angle = feature.kind == FeatureKind::angle;
+        if (along || angle) line(frame.to_image(feature.from), frame.to_image(feature.to), colour);
+        if (angle) line(frame.to_image(feature.second_from), frame.to_image(feature.second_to), colour);
+        const Result<FinePoint> where =
+            measured ? add_found(frame, result, feature)
+            : along || angle
+                ? frame.to_image(point_between(feature.from, feature.to, 1, 2))
+                : circle(frame, feature.centre,
+                         feature.kind == FeatureKind::diameter ? feature.radius : feature.search, colour);
+        if (!where) return;
+        const Point corner = place(*where);
+        const std::string text =
+            measured ? human_feature(result, feature, recipe_.scale) : text_of(feature.name) + " ?";
+        label({corner.x + 4, corner.y + 4}, text, colour_of(result.verdict));
+    }
+
+    /// Draws what was measured and answers the place of its label.
+    Result<FinePoint> add_found(const PartFrame& frame, const FeatureResult& result, const Feature& feature) {
+        const Measurement& found = result.measurement;
+        const Rgb888 colour = colour_of(result.verdict);
+        const bool angle = feature.kind == FeatureKind::angle;
+        const bool along = feature.kind == FeatureKind::distance || feature.kind == FeatureKind::width;
+        if (along || angle) line(found.marks[0], found.marks[1], colour);
+        if (angle) line(found.marks[2], found.marks[3], colour);
+        for (int i = 0; i < found.mark_count; ++i) {
+            const Point mark = place(found.marks[i]);
+            if (feature.kind == FeatureKind::position && i == 1)
+                draw(draw_diagonal_cross(picture_.view(), mark, 2 * zoom_, colour_probe));
+            else
+                draw(draw_cross(picture_.view(), mark, 3 * zoom_, colour));
+        }
+        if (angle) return found.marks[2];
+        if (along) return found.marks[1];
+        if (feature.kind == FeatureKind::position) return frame.to_image(feature.centre);
+        return circle(frame, frame.to_part(found.marks[0]), found.value.millionths / 2, colour);
+    }
+
+    /// Draws a circle of the part and answers its lower right, nothing if all of it is outside.
+    Result<FinePoint> circle(const PartFrame& frame, PartPoint centre, std::int64_t radius, Rgb888 colour) {
         constexpr int corners = 72;
         Result<FinePoint> last = Status::not_found;
         Result<FinePoint> lower_right = Status::not_found;
@@ -188,9 +218,14 @@ private:
 }  // namespace detail
 
 inline Picture<Rgb888> explain(const Picture<Gray8>& image, const Recipe& recipe,
-                               const std::vector<PartResult>& parts) {
+                               const std::vector<PartResult>& parts, const LeftOut& left_out,
+                               const std::string& reason) {
     detail::Explanation explanation(image, recipe);
+    explanation.add_reason(reason);
     for (std::size_t i = 0; i < parts.size(); ++i) explanation.add(static_cast<int>(i), parts[i]);
+    for (const Region& region : left_out.at_border) explanation.add_left_out(region, "at the border");
+    for (const Region& region : left_out.too_small) explanation.add_left_out(region, "too small");
+    for (const Region& region : left_out.too_large) explanation.add_left_out(region, "too large");
     return explanation.finish();
 }
 

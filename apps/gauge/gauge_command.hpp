@@ -14,6 +14,7 @@
 #include <common/io.hpp>
 #include <common/picture_file.hpp>
 #include <gauge/explain.hpp>
+#include <gauge/left_out.hpp>
 #include <gauge/recipe_file.hpp>
 #include <gauge/report.hpp>
 
@@ -31,11 +32,15 @@ inline Command gauge_help() {
              {"explain", "PICTURE",
               "write an annotated picture, PNG or PPM; of several\nimages, number n goes to "
               "PICTURE with -n before its ending"},
+             {"parts", "N",
+              "how many parts every picture must hold; another number\nthat is measured is a failure"},
              {"recipe-keys", "", "list every key of a recipe, and end"}},
             "Pictures are PGM, PPM, BMP, PNG or baseline JPEG; - is the standard input. Places and\n"
             "angles are those of the image: pixels, x right, y down, clockwise.\n\n"
             "Ends with 0 when every part is OK, with 1 when one is not, and with 2 when something\n"
-            "could not be judged: no part, a feature without value, a file that cannot be read.\n"};
+            "could not be judged: no part, a feature without value, a file that cannot be read.\n"
+            "What touches the border, or is too small or too large for a part, is not measured: a\n"
+            "note on the standard error tells of it, and \"left_out\" in JSON.\n"};
 }
 
 /// Measures one picture.
@@ -52,28 +57,7 @@ inline Status gauge_picture(const Picture<Gray8>& image, const Recipe& recipe,
     return status;
 }
 
-/// Why an image has no judged part, for people: what gauge_picture() answered, and what is there instead.
-inline std::string no_part_problem(const Picture<Gray8>& image, const Recipe& recipe, Status status);
-
 namespace detail {
-
-/// The largest region of the part's brightness, whatever its area; an empty one if there is none.
-inline Region largest_region(const Picture<Gray8>& image, LocateRule rule, bool at_border) {
-    rule.area_min = 1;
-    rule.area_max = LocateRule().area_max;
-    rule.at_border = at_border;
-    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(find_parts_scratch(image.size, rule)));
-    Threshold threshold;
-    Region region;
-    Hole hole;
-    int regions = 0;
-    int holes = 0;
-    // A list for one region keeps the largest, and says that there were more.
-    static_cast<void>(find_parts(image.view(), rule,
-                                 {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}, threshold,
-                                 ListView<Region>(&region, 1, &regions), ListView<Hole>(&hole, 1, &holes)));
-    return regions == 1 ? region : Region();
-}
 
 /// "a/b.png" and 2 make "a/b-2.png".
 inline std::string numbered(const std::string& name, std::size_t number) {
@@ -108,15 +92,27 @@ void complain_unmeasured(Io& io, const std::string& job, const RecipeFile& file,
     }
 }
 
+/// What the words of the command ask for.
+struct GaugeOptions {
+    std::string job;
+    std::string explain_name;  ///< "" for no picture
+    bool json = false;
+    std::size_t parts = 0;  ///< that every image must hold; 0 for any number
+};
+
+/// Measures one image, and answers how it went; explain_name is that of its own picture.
 template <class Io>
-ExitCode gauge_image(Io& io, const std::string& job, const RecipeFile& file, const std::string& name,
-                     const std::string& explain_name, bool json) {
+ExitCode gauge_image(Io& io, const GaugeOptions& options, const RecipeFile& file, const std::string& name,
+                     const std::string& explain_name) {
     Picture<Gray8> image;
-    std::string problem;
+    std::string problem;  // names the image
+    std::string reason;   // does not
     std::vector<PartResult> parts;
+    LeftOut left_out;
     ExitCode code = exit_ok;
     if (load_gray(io.storage(), name, image, problem)) {
         const Status status = gauge_picture(image, file.recipe, parts);
+        left_out = left_out_of(image, file.recipe.locate);
         if (status == Status::capacity_exceeded) {
             // What was left out was not judged.
             code = exit_failed;
@@ -125,27 +121,38 @@ ExitCode gauge_image(Io& io, const std::string& job, const RecipeFile& file, con
                              ? "more than " + std::to_string(max_parts) + " parts; the largest are measured"
                              : "more holes than there is room for; raise `hole_area_min`"));
         } else if (status != Status::ok || parts.empty()) {
-            problem = name + ": " + no_part_problem(image, file.recipe, status);
+            reason = no_part_problem(image, file.recipe.locate, status);
+            problem = name + ": " + reason;
         }
+    } else {
+        reason =
+            problem.compare(0, name.size() + 2, name + ": ") == 0 ? problem.substr(name.size() + 2) : problem;
     }
     if (parts.empty()) code = exit_failed;
     if (!problem.empty()) {
         io.complain(problem);
-        const std::size_t named = problem.compare(0, name.size(), name) == 0 ? name.size() + 2 : 0;
-        if (json) io.print(json_no_part(name, problem.substr(std::min(named, problem.size()))));
+        if (options.json) io.print(json_no_part(name, left_out.count(), reason));
+    } else if (left_out.count() > 0) {
+        io.complain(name + ": note: " + left_out_note(left_out, file.recipe.locate));
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const PartResult& part = parts[i];
         const int index = static_cast<int>(i);
-        io.print(json ? json_part(name, index, part, file.recipe)
-                      : human_part(name, index, part, file.recipe));
-        complain_unmeasured(io, job, file, name + " part " + std::to_string(i), part);
+        io.print(options.json ? json_part(name, index, left_out.count(), part, file.recipe)
+                              : human_part(name, index, part, file.recipe));
+        complain_unmeasured(io, options.job, file, name + " part " + std::to_string(i), part);
         code = worse(code, part.verdict == Verdict::ok       ? exit_ok
                            : part.verdict == Verdict::not_ok ? exit_not_ok
                                                              : exit_failed);
     }
+    if (options.parts != 0 && parts.size() != options.parts && !image.size.empty()) {
+        io.complain(name + ": " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts") +
+                    " measured, and --parts asks for " + std::to_string(options.parts));
+        code = exit_failed;
+    }
     if (!explain_name.empty() && !image.size.empty() &&
-        !save_picture(io.storage(), explain_name, explain(image, file.recipe, parts), problem)) {
+        !save_picture(io.storage(), explain_name, explain(image, file.recipe, parts, left_out, reason),
+                      problem)) {
         io.complain(problem);
         code = exit_failed;
     }
@@ -153,27 +160,6 @@ ExitCode gauge_image(Io& io, const std::string& job, const RecipeFile& file, con
 }
 
 }  // namespace detail
-
-inline std::string no_part_problem(const Picture<Gray8>& image, const Recipe& recipe, Status status) {
-    const LocateRule& rule = recipe.locate;
-    if (status == Status::degenerate)
-        return std::string("part and ground cannot be told apart: all pixels are ") +
-               (rule.threshold == ThresholdRule::otsu ? "alike" : "on one side of the threshold");
-    if (status != Status::ok) return describe(status);
-    const Region whole = detail::largest_region(image, rule, rule.at_border);
-    const Region any = detail::largest_region(image, rule, true);
-    const std::string kind = rule.dark_part ? "dark" : "bright";
-    const auto pixels = [](const Region& region) { return std::to_string(region.moments.area()) + " px"; };
-    std::string text = "no part found: ";
-    if (any.moments.area() == 0) return text + "`opening` clears everything that is " + kind;
-    if (whole.moments.area() < rule.area_min && any.moments.area() > whole.moments.area())
-        return text + "the largest " + kind + " region, " + pixels(any) +
-               ", touches the border; does the part lie whole in the picture, and is `part` right?";
-    text += "the largest " + kind + " region has " + pixels(whole);
-    if (whole.moments.area() < rule.area_min)
-        return text + ", and `area_min` is " + std::to_string(rule.area_min);
-    return text + ", and `area_max` is " + std::to_string(rule.area_max);
-}
 
 /// Runs the command with the words behind its name.
 template <class Io>
@@ -188,10 +174,24 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
         return exit_ok;
     }
     std::string problem = arguments.problem();
-    const std::string job = arguments.value("job");
+    detail::GaugeOptions options;
+    options.job = arguments.value("job");
+    options.explain_name = arguments.value("explain");
+    options.json = arguments.has("json");
+    const std::string& job = options.job;
+    const std::string& explain_name = options.explain_name;
     if (problem.empty() && job.empty()) problem = "which recipe? give --job RECIPE; `fovea teach` makes one";
     if (problem.empty() && arguments.operands().empty()) problem = "which picture? give at least one IMAGE";
-    const std::string explain_name = arguments.value("explain");
+    if (problem.empty() && arguments.has("parts")) {
+        const std::string text = arguments.value("parts");
+        const Result<Decimal> count = parse_decimal(span_of(text));
+        if (count && count->millionths % 1000000 == 0 && count->millionths >= 1000000 &&
+            count->millionths <= max_parts * std::int64_t{1000000})
+            options.parts = static_cast<std::size_t>(count->millionths / 1000000);
+        else
+            problem = "--parts takes a whole number from 1 to " + std::to_string(max_parts) + ", not '" +
+                      text + "'";
+    }
     const std::vector<std::string>& images = arguments.operands();
     const auto picture_of = [&](std::size_t i) {
         return explain_name.empty() || images.size() == 1 ? explain_name : detail::numbered(explain_name, i);
@@ -225,8 +225,7 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
     }
     ExitCode code = exit_ok;
     for (std::size_t i = 0; i < images.size(); ++i)
-        code =
-            worse(code, detail::gauge_image(io, job, file, images[i], picture_of(i), arguments.has("json")));
+        code = worse(code, detail::gauge_image(io, options, file, images[i], picture_of(i)));
     return code;
 }
 

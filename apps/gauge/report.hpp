@@ -139,9 +139,10 @@ inline std::string human_part(const std::string& image, int index, const PartRes
     return text + "\n";
 }
 
-/// One JSON object on a line, its keys always in this order.
-inline std::string json_part(const std::string& image, int index, const PartResult& part,
-                             const Recipe& recipe) {
+/// One JSON object on a line, its keys always in this order. left_out counts the regions of the image that
+/// were not measured.
+inline std::string json_part(const std::string& image, int index, std::size_t left_out,
+                             const PartResult& part, const Recipe& recipe) {
     const PartFrame& frame = part.pose.frame;
     std::string text = "{\"image\":" + json_string(image) + ",\"part\":" + std::to_string(index) +
                        ",\"x\":" + number(decimal_of(frame.origin().x), 3) +
@@ -150,7 +151,8 @@ inline std::string json_part(const std::string& image, int index, const PartResu
                        ",\"flip_confident\":" + (part.pose.ends_certain ? "true" : "false") +
                        ",\"flip_margin\":" + number(decimal_of(part.pose.margin), 3) +
                        ",\"area_px\":" + std::to_string(part.area) +
-                       ",\"holes\":" + std::to_string(part.holes) + ",\"features\":[";
+                       ",\"holes\":" + std::to_string(part.holes) +
+                       ",\"left_out\":" + std::to_string(left_out) + ",\"features\":[";
     for (int i = 0; i < part.feature_count; ++i) {
         const Feature& feature = recipe.features[i];
         const FeatureResult& result = part.features[i];
@@ -172,9 +174,9 @@ inline std::string json_part(const std::string& image, int index, const PartResu
 }
 
 /// The line of an image in which no part was judged; the problem does not name the image again.
-inline std::string json_no_part(const std::string& image, const std::string& problem) {
-    return "{\"image\":" + json_string(image) + ",\"part\":null,\"error\":" + json_string(problem) +
-           ",\"verdict\":\"unmeasured\"}\n";
+inline std::string json_no_part(const std::string& image, std::size_t left_out, const std::string& problem) {
+    return "{\"image\":" + json_string(image) + ",\"part\":null,\"left_out\":" + std::to_string(left_out) +
+           ",\"error\":" + json_string(problem) + ",\"verdict\":\"unmeasured\"}\n";
 }
 
 }  // namespace fovea::apps

@@ -2,3 +2,4 @@
 add_executable(golden_table golden/table.cpp)
 target_include_directories(golden_table PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(golden_table PRIVATE fovea_core fovea_warnings)
+target_compile_options(golden_table PRIVATE -O0)

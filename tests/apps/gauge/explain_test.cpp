@@ -37,7 +37,7 @@ bool draws_probe_that_reaches(std::int64_t far) {
     const Picture<Rgb888> drawn = explain(picture, recipe, gauged(picture, recipe));
     EXPECT_EQ(drawn.size, (Size{400, 320}));
     for (int y = 155; y < 170; ++y)
-        if (drawn.view()(0, y) == apps::detail::colour_probe) return true;
+        if (drawn.view()(0, y) == apps::detail::colour_unmeasured) return true;
     return false;
 }
 

@@ -97,7 +97,7 @@ TEST(Report, PutsTheOneOfTwelveFeaturesThatIsHighFirst) {
               "f3 1.00");
     EXPECT_NE(line.find("f5 1.0000 mm, f7 1.0000 mm"), std::string::npos) << line;
     // A machine looks for a name.
-    const auto json = parse_json(json_part("x", 0, j.part, j.recipe));
+    const auto json = parse_json(json_part("x", 0, 2, j.part, j.recipe));
     for (std::size_t i = 0; i < 12; ++i)
         EXPECT_EQ((*json)["features"].items.at(i)["name"].text, "f" + std::to_string(i));
 }
@@ -118,7 +118,7 @@ TEST(Report, SaysOnceThatAPartHasNoDirection) {
     for (FeatureResult& feature : j.part.features) feature = unmeasured(Status::undecided);
     EXPECT_EQ(human_part("x", 0, j.part, j.recipe),
               "x part 0: NOT JUDGED (ends undecided)  [x 320.50, y -0.25 px, -170.25 deg]\n");
-    const auto json = parse_json(json_part("x", 0, j.part, j.recipe));
+    const auto json = parse_json(json_part("x", 0, 2, j.part, j.recipe));
     ASSERT_TRUE(json.has_value());
     for (const Json& feature : (*json)["features"].items)
         EXPECT_EQ(feature["reason"].text, "which end of the part is which is undecided");
@@ -131,7 +131,7 @@ TEST(Report, StaysOnOneLineWhateverTheFileIsCalled) {
     const std::string line = human_part("a\nb\x1b.png", 0, j.part, j.recipe);
     EXPECT_EQ(line.find('\n'), line.size() - 1);
     EXPECT_EQ(line.compare(0, 8, "a?b?.png"), 0);
-    const std::string json = json_part("a\nb\x1b.png", 0, j.part, j.recipe);
+    const std::string json = json_part("a\nb\x1b.png", 0, 2, j.part, j.recipe);
     EXPECT_EQ(json.find('\n'), json.size() - 1);
     EXPECT_EQ((*parse_json(json))["image"].text, "a\nb\x1b.png");
 }
@@ -152,7 +152,7 @@ TEST(Report, ShowsTheLimitsOfACountAsTheyWereGiven) {
     EXPECT_EQ(human_feature(measured(holes, 4000000), holes, {}), "n 4 HIGH (most 3)");
     Judged j = judged();
     j.recipe.features[3] = holes;
-    const auto json = parse_json(json_part("x", 0, j.part, j.recipe));
+    const auto json = parse_json(json_part("x", 0, 2, j.part, j.recipe));
     EXPECT_EQ((*json)["features"].items[3]["nominal"].text, "2.5");
     EXPECT_EQ((*json)["features"].items[3]["minus"].text, "0.5");
     EXPECT_EQ((*json)["features"].items[3]["value"].text, "2");
@@ -176,10 +176,10 @@ TEST(Report, ShowsAHundredthOfAPixelInEveryUnit) {
 TEST(Report, TellsAMachineTheSameInAFixedOrder) {
     const Judged j = judged();
     EXPECT_EQ(
-        json_part("a/b.png", 3, j.part, j.recipe),
+        json_part("a/b.png", 3, 2, j.part, j.recipe),
         "{\"image\":\"a/"
         "b.png\",\"part\":3,\"x\":320.500,\"y\":-0.250,\"angle_deg\":-170.2500,\"flip_confident\":true,"
-        "\"flip_margin\":1.250,\"area_px\":45201,\"holes\":2,\"features\":["
+        "\"flip_margin\":1.250,\"area_px\":45201,\"holes\":2,\"left_out\":2,\"features\":["
         "{\"name\":\"length\",\"value\":40.003412,\"unit\":\"mm\",\"nominal\":40.000000,\"minus\":0.050000,"
         "\"plus\":"
         "0.100000,\"verdict\":\"ok\",\"blur_px\":1.50},"
@@ -200,13 +200,13 @@ TEST(Report, TellsAMachineTheSameInAFixedOrder) {
 TEST(Report, IsJsonWithTheSameKeysForEveryVerdict) {
     const std::vector<std::string> keys = {"image",     "part",           "x",           "y",
                                            "angle_deg", "flip_confident", "flip_margin", "area_px",
-                                           "holes",     "features",       "verdict"};
+                                           "holes",     "left_out",       "features",    "verdict"};
     Judged j = judged();
     for (const Verdict verdict : {Verdict::ok, Verdict::not_ok, Verdict::unmeasured}) {
         j.part.verdict = verdict;
         for (const int features : {0, 1, 5}) {
             j.part.feature_count = features;
-            const auto json = parse_json(json_part("\xff\"\\.png", 0, j.part, j.recipe));
+            const auto json = parse_json(json_part("\xff\"\\.png", 0, 2, j.part, j.recipe));
             ASSERT_TRUE(json.has_value());
             EXPECT_EQ(json->keys, keys);
             EXPECT_EQ((*json)["verdict"].text, apps::name_of(verdict));
@@ -221,9 +221,10 @@ TEST(Report, IsJsonWithTheSameKeysForEveryVerdict) {
 }
 
 TEST(Report, TellsAMachineOfAnImageWithoutParts) {
-    EXPECT_EQ(json_no_part("a.png", "no part"),
-              "{\"image\":\"a.png\",\"part\":null,\"error\":\"no part\",\"verdict\":\"unmeasured\"}\n");
-    EXPECT_TRUE(parse_json(json_no_part("\xff\n", "\"\x01")).has_value());
+    EXPECT_EQ(json_no_part("a.png", 0, "no part"),
+              "{\"image\":\"a.png\",\"part\":null,\"left_out\":0,\"error\":\"no "
+              "part\",\"verdict\":\"unmeasured\"}\n");
+    EXPECT_TRUE(parse_json(json_no_part("\xff\n", 0, "\"\x01")).has_value());
 }
 
 TEST(Report, NamesEveryVerdict) {

@@ -53,7 +53,7 @@ void gauge_with(const Recipe& recipe) {
             require((part.features[k].status == Status::ok) ==
                     (part.features[k].verdict != Verdict::unmeasured));
         require(!apps::human_part("picture", i, part, recipe).empty());
-        require(!apps::json_part("picture", i, part, recipe).empty());
+        require(!apps::json_part("picture", i, 0, part, recipe).empty());
     }
     parts.resize(static_cast<std::size_t>(count));
     require(!apps::explain(picture, recipe, parts).size.empty());
