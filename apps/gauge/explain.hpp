@@ -176,6 +176,7 @@ private:
     /// Draws a circle of the part and answers its lower right, nothing if all of it is outside.
     Result<FinePoint> circle(const PartFrame& frame, PartPoint centre, std::int64_t radius, Rgb888 colour) {
         constexpr int corners = 72;
+        const auto sum_of = [](FinePoint point) { return std::int64_t{point.x.raw()} + point.y.raw(); };
         Result<FinePoint> last = Status::not_found;
         Result<FinePoint> lower_right = Status::not_found;
         for (int i = 0; i <= corners; ++i) {
@@ -186,8 +187,7 @@ private:
                                                   multiply_divide(radius, way.y.raw(), Unit::one)});
             line(last, next, colour);
             last = next;
-            if (next && (!lower_right || next->x + next->y > lower_right->x + lower_right->y))
-                lower_right = next;
+            if (next && (!lower_right || sum_of(*next) > sum_of(*lower_right))) lower_right = next;
         }
         return lower_right;
     }
