@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -50,9 +51,12 @@ protected:
         scene.holes.clear();
         scene.noise = 0;
         change(scene);
-        // What is said first is overruled.
-        words.insert(words.begin(),
-                     {"--size", "120x90", "--plate", "80x40", "--holes", "none", "--noise", "0"});
+        const Words small = {"--size", "120x90", "--plate", "80x40", "--holes", "none", "--noise", "0"};
+        for (std::size_t i = 0; i < small.size(); i += 2)
+            if (std::none_of(words.begin(), words.end(), [&](const std::string& word) {
+                    return word == small[i] || word.rfind(small[i] + "=", 0) == 0;
+                }))
+                words.insert(words.end(), {small[i], small[i + 1]});
         const Picture<Gray8> picture = rendered(words);
         EXPECT_EQ(picture.size, scene.size);
         EXPECT_TRUE(picture.pixels == render(scene).pixels) << words.back();
