@@ -66,6 +66,13 @@ inline std::string orientation_problem(Status orientation) {
     }
 }
 
+/// The same for a line that has little room.
+inline const char* short_orientation_problem(Status orientation) {
+    return orientation == Status::ok          ? ""
+           : orientation == Status::undecided ? "ends undecided"
+                                              : "no clear axis";
+}
+
 /// Why a feature has no value, for people.
 inline std::string reason_of(const FeatureResult& result, const Feature& feature) {
     switch (result.status) {
@@ -123,8 +130,7 @@ inline std::string human_part(const std::string& image, int index, const PartRes
     std::string text =
         one_line(image) + " part " + std::to_string(index) + ": " + human_verdict(part.verdict);
     const Status orientation = part.pose.orientation;
-    if (orientation != Status::ok)
-        text += orientation == Status::undecided ? " (ends undecided)" : " (no clear axis)";
+    if (orientation != Status::ok) text += std::string(" (") + short_orientation_problem(orientation) + ")";
     const char* before = "  ";
     for (const bool ok : {false, true})
         for (int i = 0; orientation == Status::ok && i < part.feature_count; ++i) {

@@ -117,7 +117,7 @@ TEST_F(TeachCommand, SaysWhatItFoundOutAboutTheEndsOfThePart) {
 TEST_F(TeachCommand, DrawsTheProposalIntoTheFirstPicture) {
     EXPECT_EQ(run({"--out", "r.toml", "--explain", "e.ppm", "good.pgm", "other.pgm"}), apps::exit_ok);
     // Small pictures are magnified.
-    EXPECT_EQ(io.text("e.ppm").compare(0, 10, "P6\n500 500"), 0) << io.text("e.ppm").substr(0, 20);
+    EXPECT_EQ(io.text("e.ppm").compare(0, 10, "P6\n750 750"), 0) << io.text("e.ppm").substr(0, 20);
 }
 
 TEST_F(TeachCommand, PassesNotesOn) {
