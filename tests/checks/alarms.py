@@ -223,7 +223,28 @@ def snippets(folder):
     yield trial("a line without a header", "no such header: pixelwise/erode.hpp", page, "In `", "In `pixelwise/erode.hpp`, `")
 
 
-# ---- Golden vectors, memory ---------------------------------------------------------------
+# ---- Golden vectors, bench, memory ---------------------------------------------------------------
+
+OPERATOR = HEAD + "namespace fovea {\n// ---- Interface\ninline Status sharpen(ImageView<const Gray8> src);\n" \
+                  "class Sharp {\npublic:\n    int edge() const;\nprivate:\n    int hidden();\n};\n" \
+                  "// ---- Implementation\ninline int unseen();\n}\n"
+NEW_OPERATOR = {"core/include/fovea/pixelwise/sharpen.hpp": OPERATOR}
+
+
+@alarm
+def bench(folder):
+    def tree(name, excuse="", files=None):
+        made = copy_of_project(folder / name)
+        (made / "tests/bench/without_line.txt").open("a").write(excuse)
+        return [CHECKS / "bench.py", write(made, files or {})]
+
+    yield "every operator is timed", tree("good"), None
+    yield "an operator without a line", tree("operator", "", NEW_OPERATOR), "pixelwise/sharpen.hpp: no line of the bench for sharpen"
+    yield "the operator excused", tree("excused", "sharpen  a reason\n", NEW_OPERATOR), None
+    yield "an excuse without a reason", tree("reason", "sharpen\n", NEW_OPERATOR), "no reason for sharpen"
+    yield "an excuse for what has a line", tree("line", "threshold  a reason\n"), "threshold has a line"
+    yield "an excuse for nothing", tree("nothing", "blur  a reason\n"), "no operator is called blur"
+
 
 @alarm
 def golden(folder):
@@ -232,15 +253,11 @@ def golden(folder):
         (made / "tests/golden/without_vector.txt").open("a").write(excuse)
         return [CHECKS / "golden.py", "--root", write(made, files or {})]
 
-    operator = HEAD + "namespace fovea {\n// ---- Interface\ninline Status sharpen(ImageView<const Gray8> src);\n" \
-                      "class Sharp {\npublic:\n    int edge() const;\nprivate:\n    int hidden();\n};\n" \
-                      "// ---- Implementation\ninline int unseen();\n}\n"
-    new = {"core/include/fovea/pixelwise/sharpen.hpp": operator}
     yield "every function has its vector", tree("good"), None
-    yield "an operator without one", tree("operator", new), "pixelwise/sharpen.hpp: no golden vector for sharpen"
-    yield "a member without one", tree("member", new, "sharpen  a reason\n"), "no golden vector for Sharp::edge"
-    yield "the header excused", tree("excused", new, "pixelwise/sharpen.hpp  a reason\n"), None
-    yield "an excuse without a reason", tree("reason", new, "pixelwise/sharpen.hpp\n"), "no reason for"
+    yield "an operator without one", tree("operator", NEW_OPERATOR), "pixelwise/sharpen.hpp: no golden vector for sharpen"
+    yield "a member without one", tree("member", NEW_OPERATOR, "sharpen  a reason\n"), "no golden vector for Sharp::edge"
+    yield "the header excused", tree("excused", NEW_OPERATOR, "pixelwise/sharpen.hpp  a reason\n"), None
+    yield "an excuse without a reason", tree("reason", NEW_OPERATOR, "pixelwise/sharpen.hpp\n"), "no reason for"
     yield "an excuse for nothing", tree("nothing", {}, "blur  a reason\n"), "nothing is called blur"
 
     def computed(name, table, header="", old="", new=""):

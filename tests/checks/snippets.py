@@ -17,11 +17,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # the tree stays as it is
-from golden import declared, interface_of, without_comments
+from declarations import FOUNDATIONS, declared, interface_of, without_comments
 
 COMPILER = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Wconversion", "-Werror"]
-# What the operators are made of: docs/operators/foundations.md tells of them as far as a user needs.
-FOUNDATIONS = {"base", "number", "linear", "simd", "image", "stream"}
 PATIENCE_SECONDS = 20
 PLAIN_WORDS = {**os.environ, "LC_ALL": "C"}  # of the compiler
 

@@ -3,9 +3,11 @@
 #include <cstdlib>
 #include <string>
 
+#include <fovea/codec/bmp.hpp>
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>
+#include <fovea/codec/pnm.hpp>
 
 #include <bench/harness.hpp>
 #include <bench/pictures.hpp>
@@ -88,15 +90,15 @@ void time_jpeg(Row& row, Bytes made, J_COLOR_SPACE colours) {
     });
 }
 
-const bool jpeg_gray_added = add(60, "decode JPEG, gray", Sizes::vga, [](Row& row) {
+const bool jpeg_gray_added = add(70, "decode JPEG, gray", Sizes::vga, [](Row& row) {
     Picture<Gray8> src = part(row.size());
     time_jpeg<Gray8>(row, jpeg_file(src.data(), row.size(), 1), JCS_GRAYSCALE);
 });
-const bool jpeg_luma_added = add(61, "decode JPEG, gray of a colour file", Sizes::vga, [](Row& row) {
+const bool jpeg_luma_added = add(71, "decode JPEG, gray of a colour file", Sizes::vga, [](Row& row) {
     Picture<Rgb888> src = coloured_part(row.size());
     time_jpeg<Gray8>(row, jpeg_file(&src.data()->red, row.size(), 3), JCS_GRAYSCALE);
 });
-const bool jpeg_rgb_added = add(62, "decode JPEG, RGB", Sizes::vga, [](Row& row) {
+const bool jpeg_rgb_added = add(72, "decode JPEG, RGB", Sizes::vga, [](Row& row) {
     Picture<Rgb888> src = coloured_part(row.size());
     time_jpeg<Rgb888>(row, jpeg_file(&src.data()->red, row.size(), 3), JCS_RGB);
 });
@@ -141,7 +143,7 @@ Bytes png_file(Picture<Gray8>& src) {
     return file;
 }
 
-const bool png_read_added = add(63, "decode PNG, gray", Sizes::vga, [](Row& row) {
+const bool png_read_added = add(73, "decode PNG, gray", Sizes::vga, [](Row& row) {
     auto& src = row.keep(part(row.size()));
     auto& file = row.keep(png_file(src));
     auto& dst = row.keep(Picture<Gray8>(row.size()));
@@ -154,7 +156,7 @@ const bool png_read_added = add(63, "decode PNG, gray", Sizes::vga, [](Row& row)
 #endif
 });
 
-const bool png_write_added = add(64, "encode PNG, gray", Sizes::vga, [](Row& row) {
+const bool png_write_added = add(74, "encode PNG, gray", Sizes::vga, [](Row& row) {
     auto& src = row.keep(part(row.size()));
     auto& out = row.keep(bytes(encoded_png_bytes<Gray8>(row.size())));
     auto& scratch = row.keep(bytes(png_writer_scratch(row.size())));
@@ -166,6 +168,31 @@ const bool png_write_added = add(64, "encode PNG, gray", Sizes::vga, [](Row& row
     row.remark("the file has " + percent(png_file(src).size(), libpng_encode(row.size(), src.data(), out)) +
                " of libpng's bytes");
 #endif
+});
+
+// ---- BMP, PNM -----------------------------------------------------------------------------
+
+template <class Decode, class Encode>
+void time_both_ways(Row& row, std::int64_t file_bytes, Decode decode, Encode encode) {
+    auto& src = row.keep(coloured_part(row.size()));
+    auto& dst = row.keep(Picture<Rgb888>(row.size()));
+    auto& file = row.keep(bytes(file_bytes));
+    row.ours([&, decode, encode] {
+        if (!encode(ImageView<const Rgb888>(src.view()), span_of(file)) ||
+            decode(span_of(file), dst.view()) != Status::ok)
+            std::abort();
+    });
+}
+
+const bool bmp_added = add(75, "encode and decode BMP, RGB", Sizes::vga, [](Row& row) {
+    time_both_ways(
+        row, encoded_bmp_bytes<Rgb888>(row.size()), [](auto file, auto dst) { return decode_bmp(file, dst); },
+        [](auto src, auto out) { return encode_bmp(src, out); });
+});
+const bool pnm_added = add(76, "encode and decode PPM", Sizes::vga, [](Row& row) {
+    time_both_ways(
+        row, encoded_pnm_bytes<Rgb888>(row.size()), [](auto file, auto dst) { return decode_pnm(file, dst); },
+        [](auto src, auto out) { return encode_pnm(src, out); });
 });
 
 }  // namespace

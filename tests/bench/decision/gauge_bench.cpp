@@ -30,7 +30,7 @@ Gauging taught(Size size) {
     return made;
 }
 
-const bool gauge_added = add(70, "gauge, one part, 8 features", Sizes::vga_and_full_hd, [](Row& row) {
+const bool gauge_added = add(80, "gauge, one part, 8 features", Sizes::vga_and_full_hd, [](Row& row) {
     auto& made = row.keep(taught(row.size()));
     row.ours([&] {
         if (gauge(made.image.view(), made.recipe, span_of(made.scratch), made.parts) != Status::ok)
@@ -38,7 +38,7 @@ const bool gauge_added = add(70, "gauge, one part, 8 features", Sizes::vga_and_f
     });
 });
 
-const bool find_added = add(71, "find_parts alone", Sizes::vga_and_full_hd, [](Row& row) {
+const bool find_added = add(81, "find_parts alone", Sizes::vga_and_full_hd, [](Row& row) {
     auto& made = row.keep(taught(row.size()));
     auto& regions = row.keep(List<Region, 8>());
     auto& holes = row.keep(List<Hole, 8>());
