@@ -12,6 +12,7 @@
 #include <gauge/gauge_command.hpp>
 #include <gauge/teach.hpp>
 #include <make_part/part_scene.hpp>
+#include <support/plate_scene.hpp>
 
 namespace {
 
@@ -55,19 +56,8 @@ private:
     int count_ = 0;
 };
 
-/// The plate of the study: 180 x 70 px with a cut corner and two holes, 30 and 18 px wide.
-PartScene plate() {
-    PartScene scene;
-    scene.size = {260, 240};
-    scene.length = FinePixel::from_int(180);
-    scene.height = FinePixel::from_int(70);
-    scene.cut_x = FinePixel::from_int(30);
-    scene.cut_y = FinePixel::from_int(20);
-    scene.holes = {{FinePixel::from_int(50), FinePixel::from_int(-2), FinePixel::from_int(15)},
-                   {FinePixel::from_int(-48), FinePixel::from_int(4), FinePixel::from_int(9)}};
-    scene.middle = {FinePixel::from_int(130), FinePixel::from_int(120)};
-    return scene;
-}
+/// The plate of the study.
+PartScene plate() { return test::small_plate({260, 240}); }
 
 // ---- What is true, from the numbers of the scene alone ---------------------------------------
 

@@ -15,6 +15,7 @@
 #include <make_part/part_scene.hpp>
 #include <support/json.hpp>
 #include <support/parts.hpp>
+#include <support/plate_scene.hpp>
 #include <support/test_io.hpp>
 
 namespace fovea::test {
@@ -25,17 +26,9 @@ using apps::gauge_command;
 using apps::Picture;
 using Words = std::vector<std::string>;
 
-/// A small plate of make-part: 180 x 70 with two holes, lying in 260 x 160.
+/// A plate that lies aslant in 260 x 160.
 apps::PartScene scene() {
-    apps::PartScene scene;
-    scene.size = {260, 160};
-    scene.length = FinePixel::from_int(180);
-    scene.height = FinePixel::from_int(70);
-    scene.cut_x = FinePixel::from_int(30);
-    scene.cut_y = FinePixel::from_int(20);
-    scene.holes = {{FinePixel::from_int(50), FinePixel::from_int(-2), FinePixel::from_int(15)},
-                   {FinePixel::from_int(-48), FinePixel::from_int(4), FinePixel::from_int(9)}};
-    scene.middle = {FinePixel::from_int(130), FinePixel::from_int(80)};
+    apps::PartScene scene = small_plate({260, 160});
     scene.angle = FineAngle::from_microdegrees(9000000);
     scene.noise = 2000000;
     return scene;

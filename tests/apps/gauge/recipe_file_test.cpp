@@ -11,6 +11,7 @@
 
 #include <fovea/base/random.hpp>
 #include <gauge/recipe_file.hpp>
+#include <support/recipe_problem.hpp>
 #include <support/recipes.hpp>
 #include <support/test_io.hpp>
 
@@ -20,13 +21,6 @@ namespace {
 using apps::read_recipe;
 using apps::RecipeFile;
 using apps::write_recipe;
-
-/// "line:column: problem", "" for a good recipe.
-std::string problem_of(const std::string& text) {
-    const RecipeFile file = read_recipe(text);
-    if (file.problem.empty()) return "";
-    return std::to_string(file.place.line) + ":" + std::to_string(file.place.column) + ": " + file.problem;
-}
 
 TEST(RecipeFile, GivesBackEveryRandomRecipeWithAndWithoutComments) {
     Random random(201);

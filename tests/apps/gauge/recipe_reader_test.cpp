@@ -7,6 +7,7 @@
 #include <fovea/base/random.hpp>
 #include <gauge/recipe_file.hpp>
 #include <gauge/recipe_reader.hpp>
+#include <support/recipe_problem.hpp>
 #include <support/recipes.hpp>
 #include <support/test_io.hpp>
 
@@ -16,13 +17,6 @@ namespace {
 using apps::read_recipe;
 using apps::RecipeFile;
 using apps::write_recipe;
-
-/// "line:column: problem", "" for a good recipe.
-std::string problem_of(const std::string& text) {
-    const RecipeFile file = read_recipe(text);
-    if (file.problem.empty()) return "";
-    return std::to_string(file.place.line) + ":" + std::to_string(file.place.column) + ": " + file.problem;
-}
 
 const std::string width =
     "[[feature]]\nname = \"w\"\nkind = \"width\"\nfrom = [-9, 0]\nto = [9, 0]\n"
