@@ -68,6 +68,27 @@ constexpr std::int64_t circle_half_width(std::int64_t dy, std::int64_t radius, i
     return move < 0 ? nearest : nearest - 1;
 }
 
+/// The same from that of a neighbouring row. Near the top and the bottom, where it differs by much, and far
+/// outside an image a few steps would not reach it.
+constexpr std::int64_t circle_half_width_from(std::int64_t dx, std::int64_t dy, std::int64_t radius,
+                                              int move) {
+    const auto row = static_cast<std::int64_t>(magnitude(dy));
+    const auto belongs = [&](std::int64_t width) {
+        const std::int64_t far = maximum(width, row);
+        const std::int64_t near = minimum(width, row);
+        return far * (far + move) + near * near < radius * radius;
+    };
+    for (int steps = 0; steps < 4; ++steps) {
+        if (dx >= 0 && !belongs(dx))
+            --dx;
+        else if (belongs(dx + 1))
+            ++dx;
+        else
+            return dx;
+    }
+    return circle_half_width(dy, radius, move);
+}
+
 /// The disc of the outline of radius outer without what lies strictly inside the outline of radius inner.
 template <class Pixel>
 void fill_ring(ImageView<Pixel> image, Point centre, std::int64_t outer, std::int64_t inner, Pixel colour) {
@@ -75,9 +96,11 @@ void fill_ring(ImageView<Pixel> image, Point centre, std::int64_t outer, std::in
     const std::int64_t x = centre.x;
     const std::int64_t y = centre.y;
     const std::int64_t last = minimum<std::int64_t>(y + outer, image.height() - 1);
+    std::int64_t reach = 0;
+    std::int64_t hole = -1;
     for (std::int64_t row = maximum<std::int64_t>(y - outer, 0); row <= last; ++row) {
-        const std::int64_t reach = circle_half_width(row - y, outer, -1);
-        const std::int64_t hole = inner > 0 ? circle_half_width(row - y, inner, 1) : -1;
+        reach = circle_half_width_from(reach, row - y, outer, -1);
+        if (inner > 0) hole = circle_half_width_from(hole, row - y, inner, 1);
         if (hole < 0) {
             fill_run(image, row, x - reach, x + reach, colour);
         } else {
