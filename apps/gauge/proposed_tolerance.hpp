@@ -31,7 +31,7 @@ Tolerance proposed_tolerance(const Feature& feature, const Scale& scale, const S
 /// True if parts that differ so are not of one kind: by more than an eighth of a length, or 10 degrees.
 bool too_wide(const Feature& feature, const Spread& spread);
 
-/// What to say if good parts differ by more than parts of one kind should, or by more than was asked for;
+/// What to say if good parts differ by more than half a pixel or 2 degrees, or by more than was asked for;
 /// else
 /// "".
 std::string spread_note(const Feature& feature, const Scale& scale, const Spread& spread,
@@ -80,7 +80,7 @@ inline std::string spread_note(const Feature& feature, const Scale& scale, const
                                std::optional<std::int64_t> asked) {
     const bool given = detail::is_length(feature) && asked;
     const std::int64_t most = given                        ? *asked
-                              : detail::is_length(feature) ? 2 * detail::pixel_of(scale)
+                              : detail::is_length(feature) ? detail::pixel_of(scale) / 2
                                                            : 2000000;
     if (spread.farthest <= most) return "";
     const std::string unit = unit_of(feature, scale);

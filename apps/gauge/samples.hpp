@@ -181,7 +181,15 @@ inline Samples find_samples(const std::vector<Picture<Gray8>>& images, const std
             const std::string problem = detail::collect_parts(images[i], tried, found.parts);
             if (!problem.empty()) found.notes.push_back(names[i] + ": no part found: " + problem);
         }
+        std::vector<bool> seen(images.size());
+        for (const Sample& part : found.parts)
+            seen[static_cast<std::size_t>(part.image - images.data())] = true;
         detail::keep_kind(found);
+        for (std::size_t i = 0; i < images.size(); ++i)
+            if (seen[i] && std::none_of(found.parts.begin(), found.parts.end(),
+                                        [&](const Sample& part) { return part.image == &images[i]; }))
+                found.notes.push_back(names[i] +
+                                      ": not a sample: nothing in it is about as large as the part");
         detail::keep_holes(found.parts);
         if (best.parts.empty() || detail::enclosed(found.parts) > detail::enclosed(best.parts)) best = found;
     }

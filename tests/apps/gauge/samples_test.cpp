@@ -72,6 +72,14 @@ TEST(Samples, WarnsThatItMayHaveTakenTheHolesOfAPartThatTouchesTheBorder) {
     EXPECT_EQ(samples_of(touching, false).notes, Notes());
 }
 
+TEST(Samples, SayWhichPictureGaveNone) {
+    const Samples samples =
+        find_samples({lying(plate(), 0, 509), lying(disc(20), 0, 510)}, {"good.png", "small.png"}, {});
+    EXPECT_EQ(samples.parts.size(), 1u);
+    EXPECT_EQ(samples.problem, "");
+    EXPECT_EQ(samples.notes, Notes{"small.png: not a sample: nothing in it is about as large as the part"});
+}
+
 TEST(Samples, SaysWhyAPictureHasNoPart) {
     EXPECT_EQ(samples_of(flat(90)).problem,
               "no part found: it must lie whole in the picture, on a ground of another brightness");

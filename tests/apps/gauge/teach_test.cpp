@@ -178,6 +178,33 @@ TEST(Teach, PutsTheHolesWhereTheyAreOnAverage) {
     for (const Picture<Gray8>& picture : good) EXPECT_EQ(verdicts_of(picture, recipe), "ok");
 }
 
+TEST(Teach, SaysThatAPartWithoutAnAxisMustLieAsInThePictures) {
+    const auto warned = [](const Taught& taught) {
+        return std::any_of(taught.notes.begin(), taught.notes.end(), [](const std::string& note) {
+            return note.find("the part has no clear axis") != std::string::npos;
+        });
+    };
+    const Taught square = taught_from({lying(rectangle(90, 90), 7, 430)});
+    EXPECT_EQ(square.recipe.locate.orientation, OrientationRule::none);
+    EXPECT_TRUE(warned(square));
+    // A disc is the same however it lies, and a plate has an axis.
+    const Taught round = taught_from({lying(disc(60), 0, 431)});
+    EXPECT_EQ(round.recipe.locate.orientation, OrientationRule::none);
+    EXPECT_FALSE(warned(round));
+    EXPECT_FALSE(warned(taught_from({lying(plate(), 0, 432)})));
+}
+
+TEST(Teach, SaysThatALengthDiffersByMoreThanHalfAPixel) {
+    const Picture<Gray8> good = lying(rectangle(180, 70), 0, 433);
+    const auto notes_with = [&](double length) {
+        return taught_from({good, lying(rectangle(length, 70), 0, 434)}).notes;
+    };
+    EXPECT_EQ(notes_with(180.4), Names());
+    const Names notes = notes_with(181.6);
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes[0].compare(0, 26, "length differs by up to 0."), 0) << notes[0];
+}
+
 TEST(Teach, LeavesOutTheCountOfHolesWhereGoodPartsDisagreeAndSaysSo) {
     const Taught taught =
         taught_from({lying(plate(), 0, 419), lying(plate_without_its_small_hole(), 30, 420)});
@@ -223,7 +250,7 @@ TEST(Teach, MeasuresAPartWithAlikeEndsEitherWayRound) {
 
 TEST(Teach, MeasuresASquareAsItLies) {
     const Picture<Gray8> good = lying(rectangle(120, 120), 0, 428);
-    const Recipe recipe = recipe_of(taught_from({good}));
+    const Recipe recipe = taught_from({good}).recipe;
     EXPECT_EQ(recipe.locate.orientation, OrientationRule::none);
     EXPECT_NEAR(nominal_of(recipe, "length"), 120, 0.05);
     EXPECT_EQ(verdicts_of(good, recipe), "ok");
