@@ -31,9 +31,8 @@ Tolerance proposed_tolerance(const Feature& feature, const Scale& scale, const S
 /// True if parts that differ so are not of one kind: by more than an eighth of a length, or 10 degrees.
 bool too_wide(const Feature& feature, const Spread& spread);
 
-/// What to say if good parts differ by more than half a pixel or 2 degrees, or by more than was asked for;
-/// else
-/// "".
+/// What to say if good parts differ by more than half a pixel or 2 degrees, or by more than was asked for.
+/// "" if they do not.
 std::string spread_note(const Feature& feature, const Scale& scale, const Spread& spread,
                         std::optional<std::int64_t> asked);
 

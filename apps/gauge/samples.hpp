@@ -177,17 +177,16 @@ inline Samples find_samples(const std::vector<Picture<Gray8>>& images, const std
         if (dark && *dark != tried) continue;
         Samples found;
         found.dark = tried;
+        std::vector<bool> has_parts(images.size());
         for (std::size_t i = 0; i < images.size(); ++i) {
             const std::string problem = detail::collect_parts(images[i], tried, found.parts);
+            has_parts[i] = problem.empty();
             if (!problem.empty()) found.notes.push_back(names[i] + ": no part found: " + problem);
         }
-        std::vector<bool> seen(images.size());
-        for (const Sample& part : found.parts)
-            seen[static_cast<std::size_t>(part.image - images.data())] = true;
         detail::keep_kind(found);
         for (std::size_t i = 0; i < images.size(); ++i)
-            if (seen[i] && std::none_of(found.parts.begin(), found.parts.end(),
-                                        [&](const Sample& part) { return part.image == &images[i]; }))
+            if (has_parts[i] && std::none_of(found.parts.begin(), found.parts.end(),
+                                             [&](const Sample& part) { return part.image == &images[i]; }))
                 found.notes.push_back(names[i] +
                                       ": not a sample: nothing in it is about as large as the part");
         detail::keep_holes(found.parts);

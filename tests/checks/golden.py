@@ -15,6 +15,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # the tree stays as it is
 from declarations import declared, interface_of, is_used, without_comments
 
+
 def check_coverage(root):
     include = root / "core/include/fovea"
     vectors = "".join(without_comments(path.read_text()) for path in sorted((root / "tests/golden").glob("*.hpp")))
