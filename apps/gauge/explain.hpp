@@ -68,23 +68,22 @@ public:
         const Rgb888 colour = colour_of(part.verdict);
         frame_region(part.box, colour);
         const PartFrame& frame = part.pose.frame;
+        const bool directed = part.pose.orientation == Status::ok;
         const std::int64_t reach = maximum(part.box.width, part.box.height) * recipe_.scale.x_per_pixel / 4;
-        if (part.pose.orientation == Status::ok && recipe_.locate.orientation != OrientationRule::none)
+        if (directed && recipe_.locate.orientation != OrientationRule::none)
             arrow(frame.to_image({0, 0}), frame.to_image({reach, 0}));
         draw(draw_cross(picture_.view(), place(frame.origin()), 5 * pen_, colour_frame, pen_));
         std::vector<LabelLine> lines = {
             {"part " + std::to_string(index) + " " + human_verdict(part.verdict), colour}};
-        if (part.pose.orientation != Status::ok)
-            lines.push_back({short_orientation_problem(part.pose.orientation), colour});
-        for (int i = 0; i < part.feature_count; ++i) {
+        if (!directed) lines.push_back({short_orientation_problem(part.pose.orientation), colour});
+        for (int i = 0; directed && i < part.feature_count; ++i) {
             const FeatureResult& result = part.features[i];
             const Feature& feature = recipe_.features[i];
-            if (part.pose.orientation != Status::ok) continue;
             const std::string text = human_feature(result, feature, recipe_.scale);
             if (feature.kind == FeatureKind::hole_count)
                 lines.push_back({text, colour_of(result.verdict)});
             else
-                notes_.push_back({add_feature(part.pose.frame, result, feature), text, result.verdict});
+                notes_.push_back({add_feature(frame, result, feature), text, result.verdict});
         }
         titles_.push_back({part.box, lines});
     }

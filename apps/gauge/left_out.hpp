@@ -134,7 +134,8 @@ inline std::string no_part_problem(const Picture<Gray8>& image, const LocateRule
     if (largest == 0) return text + "`opening` clears everything that is " + kind;
     if (whole < rule.area_min && largest > whole)
         return text + "the largest " + kind + " region, " + detail::pixels(largest) +
-               ", touches the border; does the part lie whole in the picture, and is `part` right?";
+               ", touches the border; does the part lie whole in the picture, is `part` right, is the light "
+               "even?";
     text += "the largest " + kind + " region has " + detail::pixels(whole);
     if (whole < rule.area_min) return text + ", and `area_min` is " + std::to_string(rule.area_min);
     return text + ", and `area_max` is " + std::to_string(rule.area_max);

@@ -40,14 +40,22 @@ inline std::vector<std::string> key_names(const std::string& table, unsigned kin
     return names;
 }
 
-/// False for keys of [locate] that mean nothing beside the others.
-inline bool speaks(const Key& key, const Recipe& recipe) {
+/// What a key of [locate] needs beside it in a recipe to mean anything; "" if it does.
+inline std::string lacking_beside(const Key& key, const Recipe& recipe) {
     const std::string name = key.name;
-    if (name == "level") return recipe.locate.threshold == ThresholdRule::fixed;
-    if (name == "dark_quantile" || name == "bright_quantile")
-        return recipe.locate.threshold == ThresholdRule::quantile;
-    if (name == "ends") return !(recipe.locate.ends == Asymmetry{});
-    return true;
+    const LocateRule& locate = recipe.locate;
+    if (name == "level" && locate.threshold != ThresholdRule::fixed) return "threshold = \"fixed\"";
+    if ((name == "dark_quantile" || name == "bright_quantile") && locate.threshold != ThresholdRule::quantile)
+        return "threshold = \"quantile\"";
+    if (name == "symmetry_order" && locate.orientation != OrientationRule::rotational)
+        return "orientation = \"rotational\"";
+    return "";
+}
+
+/// False for keys that a recipe is written without.
+inline bool speaks(const Key& key, const Recipe& recipe) {
+    if (std::string(key.name) == "ends") return !(recipe.locate.ends == Asymmetry{});
+    return lacking_beside(key, recipe).empty();
 }
 
 /// What a recipe or a feature may be called.
@@ -321,10 +329,15 @@ private:
             return fail(place_of({"per_pixel_x", "per_pixel_y"}),
                         "per_pixel_x and per_pixel_y differ by more than four times");
         for (const Key& key : recipe_keys())
-            if (given(key.name) && !speaks(key, recipe) && std::string(key.name) != "ends")
+            if (given(key.name) && !lacking_beside(key, recipe).empty())
                 return fail(place_of({key.name}),
-                            std::string(key.name) + " has no meaning without threshold = " +
-                                (std::string(key.name) == "level" ? "\"fixed\"" : "\"quantile\""));
+                            std::string(key.name) + " has no meaning without " + lacking_beside(key, recipe));
+        if (recipe.locate.orientation == OrientationRule::rotational && !given("symmetry_order"))
+            return fail(place_of({"orientation"}),
+                        "[locate] lacks symmetry_order: in how many directions the part looks the same");
+        if (needs_outline(recipe.locate))
+            return fail(place_of({"opening", "orientation", "pose"}),
+                        "orientation = \"rotational\" with an opening needs pose = \"outline\"");
         if (recipe.locate.opening % 2 == 0)
             return fail(place_of({"opening"}), "opening: expected an odd number, so that it has a middle");
         if (recipe.locate.area_min > recipe.locate.area_max)

@@ -11,6 +11,7 @@
 #include <fovea/decision/recipe.hpp>
 #include <fovea/measure/edge_probe.hpp>
 #include <fovea/morphology/morphology.hpp>
+#include <fovea/statistics/polygon_symmetry.hpp>
 
 namespace fovea::apps {
 
@@ -218,9 +219,13 @@ inline const auto& recipe_keys() {
             load_recipe<&R::locate, &L::pose>, show_recipe<&R::locate, &L::pose>}
             .one_of("region|outline"),
         Key{"locate", "orientation", KeyType::choice,
-            "how its turn is found, by axis and ends, by the axis alone or not at all",
+            "how its turn is found, by axis and ends, by the axis alone, by its symmetry or not at all",
             load_recipe<&R::locate, &L::orientation>, show_recipe<&R::locate, &L::orientation>}
-            .one_of("full|symmetric|none"),
+            .one_of("full|symmetric|rotational|none"),
+        Key{"locate", "symmetry_order", KeyType::integer,
+            "of \"rotational\": in how many directions the part looks the same",
+            load_recipe<&R::locate, &L::symmetry_order>, show_recipe<&R::locate, &L::symmetry_order>}
+            .range(min_symmetry_order, max_symmetry_order),
         Key{"locate", "ends", KeyType::numbers, "third moments that tell the part's ends apart", load_ends,
             show_ends}
             .range(-4000000, 4000000)

@@ -19,11 +19,19 @@ namespace fovea::apps {
 class SampleMeter {
 public:
     SampleMeter(const Samples& samples, const LocateRule& rule, const Scale& scale)
-        : samples_(samples), rule_(rule), scale_(scale) {}
+        : samples_(samples), rule_(rule), scale_(scale) {
+        for (const Sample& sample : samples.parts) {
+            const Result<PartMoments> moments = sample.moments_under(rule, scale);
+            frames_.push_back(pose_of(moments ? *moments : sample.moments, rule, scale).frame);
+        }
+    }
 
-    PartFrame frame_of(const Sample& sample) const { return pose_of(sample.moments, rule_, scale_).frame; }
+    /// sample is one of those that it was made with.
+    const PartFrame& frame_of(const Sample& sample) const {
+        return frames_[static_cast<std::size_t>(&sample - samples_.parts.data())];
+    }
     Result<Measurement> measure(const Sample& sample, const Feature& feature, FineAngle turn = {}) const {
-        const PartFrame frame = frame_of(sample);
+        const PartFrame& frame = frame_of(sample);
         std::vector<std::uint8_t> scratch(
             static_cast<std::size_t>(measure_feature_scratch(sample.image->size)));
         const PartView view{sample.image->view(),
@@ -82,6 +90,7 @@ private:
     const Samples& samples_;
     LocateRule rule_;
     Scale scale_;
+    std::vector<PartFrame> frames_;  ///< of the samples
 };
 
 }  // namespace fovea::apps

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Samples: the good parts in the pictures that a recipe is taught from, and the rule that finds them again.
+// Samples: the good parts in the pictures that a recipe is taught from.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,11 @@ struct Sample {
     std::vector<Hole> holes;  ///< its own
     Threshold threshold;
     PartMoments moments;
-    FineAngle axis;  ///< in the image as it is
     std::int64_t filled_area() const { return region.moments.area() + region.hole_area; }
+    Result<PartMoments> moments_under(const LocateRule& rule, const Scale& scale) const {
+        return moments_of(image->view(), rule, threshold.part, region,
+                          {holes.data(), static_cast<std::ptrdiff_t>(holes.size())}, scale);
+    }
 };
 
 struct Samples {
@@ -41,13 +44,6 @@ struct Samples {
 /// about as large. Without being told, takes the brightness whose regions enclose more.
 Samples find_samples(const std::vector<Picture<Gray8>>& images, const std::vector<std::string>& names,
                      std::optional<bool> dark);
-
-/// The rule that finds the samples, and nothing else in their pictures as far as an area can tell.
-LocateRule rule_from(const Samples& samples, const Scale& scale);
-
-/// True if a rule takes the ends of the parts for alike though those of single samples are not: they may be
-/// of two kinds, or one is turned over.
-bool ends_disagree(const Samples& samples, const LocateRule& rule, const Scale& scale);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -203,88 +199,10 @@ inline Samples find_samples(const std::vector<Picture<Gray8>>& images, const std
     for (Sample& part : best.parts) {
         LocateRule rule;
         rule.pose = best.pose;
-        const Result<PartMoments> moments =
-            moments_of(part.image->view(), rule, part.threshold.part, part.region,
-                       {part.holes.data(), static_cast<std::ptrdiff_t>(part.holes.size())});
+        const Result<PartMoments> moments = part.moments_under(rule, Scale());
         if (moments) part.moments = *moments;
-        const Result<Orientation> axis = orientation(part.moments.frame);
-        if (axis) part.axis = axis->axis;
     }
     return best;
-}
-
-namespace detail {
-
-/// The third moments of every sample in the frame of its axis; none if one of them has no clear axis.
-inline std::vector<Asymmetry> ends_of(const Samples& samples, const Scale& scale) {
-    std::vector<Asymmetry> ends;
-    for (const Sample& part : samples.parts) {
-        const Result<Orientation> axis = orientation(stretched(part.moments.frame, aspect_of(scale)));
-        if (!axis || axis->elongation < Ratio::from_ratio(1, 25)) return {};
-        const Result<Asymmetry> each =
-            asymmetry(stretched(part.moments.region, aspect_of(scale)), axis->axis);
-        if (!each) return {};
-        ends.push_back(*each);
-    }
-    return ends;
-}
-
-}  // namespace detail
-
-inline bool ends_disagree(const Samples& samples, const LocateRule& rule, const Scale& scale) {
-    if (rule.orientation != OrientationRule::symmetric) return false;
-    const std::vector<Asymmetry> ends = detail::ends_of(samples, scale);
-    // Twice what can decide at all.
-    return std::any_of(ends.begin(), ends.end(), [](const Asymmetry& each) {
-        const auto square = [](Ratio ratio) { return std::int64_t{ratio.raw()} * ratio.raw(); };
-        return square(each.sss) + square(each.sst) + square(each.stt) + square(each.ttt) >
-               4 * square(least_asymmetry);
-    });
-}
-
-inline LocateRule rule_from(const Samples& samples, const Scale& scale) {
-    LocateRule rule;
-    rule.dark_part = samples.dark;
-    rule.pose = samples.pose;
-    const std::int64_t least = detail::least_part_area(samples.parts);
-    std::int64_t most = least;
-    for (const Sample& part : samples.parts) most = std::max(most, part.region.moments.area());
-    rule.area_min = std::max<std::int64_t>(least * 3 / 4, 1);
-    rule.area_max = std::min(most * 5 / 4, LocateRule().area_max);
-    // Halfway to what else is in the pictures, where that is nearer.
-    for (const std::int64_t other : samples.other_areas) {
-        if (other < least) rule.area_min = std::max(rule.area_min, (other + least + 1) / 2);
-        if (other > most) rule.area_max = std::min(rule.area_max, (other + most) / 2);
-    }
-    rule.hole_area_min = detail::hole_area_min_of(samples.parts);
-
-    // The axis must be clear on every sample, and the ends must follow from their common third moments.
-    const std::vector<Asymmetry> ends = detail::ends_of(samples, scale);
-    rule.orientation = ends.empty() ? OrientationRule::none : OrientationRule::symmetric;
-    if (ends.empty()) return rule;
-    std::int64_t sums[4] = {0, 0, 0, 0};
-    for (const Asymmetry& each : ends) {
-        // The first sample says which end is the front.
-        const std::int64_t along = std::int64_t{each.sss.raw()} * ends[0].sss.raw() +
-                                   std::int64_t{each.sst.raw()} * ends[0].sst.raw() +
-                                   std::int64_t{each.stt.raw()} * ends[0].stt.raw() +
-                                   std::int64_t{each.ttt.raw()} * ends[0].ttt.raw();
-        const std::int64_t sign = along < 0 ? -1 : 1;
-        const Ratio parts[] = {each.sss, each.sst, each.stt, each.ttt};
-        for (int i = 0; i < 4; ++i) sums[i] += sign * parts[i].raw();
-    }
-    const auto mean = [&](int i) {
-        // In whole millionths, as the recipe file holds it.
-        const std::int64_t millionths =
-            round_divide(sums[i] * 1000000, static_cast<std::int64_t>(ends.size()) * Ratio::one);
-        return Ratio::from_ratio(millionths, 1000000);
-    };
-    const Asymmetry common{mean(0), mean(1), mean(2), mean(3)};
-    for (const Asymmetry& each : ends)
-        if (!half_turn(each, common)) return rule;
-    rule.orientation = OrientationRule::full;
-    rule.ends = common;
-    return rule;
 }
 
 }  // namespace fovea::apps

@@ -14,6 +14,7 @@
 
 #include <common/picture_file.hpp>
 #include <gauge/proposer.hpp>
+#include <gauge/sample_rule.hpp>
 #include <gauge/samples.hpp>
 
 namespace fovea::apps {
@@ -153,17 +154,6 @@ inline std::optional<Scale> scale_of_known_length(const Samples& samples, const 
     return {};
 }
 
-/// True if a feature has the same value however the part lies turned about its centroid.
-inline bool independent_of_turn(const Feature& feature) {
-    switch (feature.kind) {
-        case FeatureKind::hole_count: return true;
-        case FeatureKind::diameter:
-        case FeatureKind::hole_diameter:
-        case FeatureKind::position: return length_of(feature.centre) <= feature.search / 2;
-        default: return false;
-    }
-}
-
 }  // namespace detail
 
 inline Taught teach(const std::vector<Picture<Gray8>>& images, const std::vector<std::string>& names,
@@ -193,13 +183,6 @@ inline Taught teach(const std::vector<Picture<Gray8>>& images, const std::vector
     detail::Proposer proposer(taught.samples, rule, scale, options);
     taught.recipe = proposer.propose();
     taught.notes.insert(taught.notes.end(), proposer.notes().begin(), proposer.notes().end());
-    const auto& features = taught.recipe.features;
-    if (rule.orientation == OrientationRule::none &&
-        !std::all_of(features.begin(), features.end(), detail::independent_of_turn))
-        taught.notes.push_back(
-            "the part has no clear axis, so how it lies turned is not known: every part must lie turned as "
-            "in "
-            "the pictures, or bad ones can read as good");
     if (taught.recipe.features.size() < 2) {
         const std::size_t count = taught.samples.parts.size();
         taught.problem =

@@ -131,7 +131,10 @@ inline std::string summary(const Taught& taught) {
     switch (recipe.locate.orientation) {
         case OrientationRule::full: text += "with ends that can be told apart\n"; break;
         case OrientationRule::symmetric: text += "the same when turned by half\n"; break;
-        case OrientationRule::none: text += "without a clear axis: measured as it lies\n"; break;
+        case OrientationRule::rotational:
+            text += "the same in " + std::to_string(recipe.locate.symmetry_order) + " directions\n";
+            break;
+        case OrientationRule::none: text += "without a direction\n"; break;
     }
     if (recipe.scale.unit == LengthUnit::millimetre)
         text += "a pixel is " + shortest(Decimal{recipe.scale.x_per_pixel}) + " mm wide and " +

@@ -101,6 +101,14 @@ def programs_of(page):
     return programs
 
 
+def picture_in(folder):
+    """The picture for a program that takes one: a dark square on bright ground, 640 x 480 pixels."""
+    path = folder / "picture.pgm"
+    rows = [bytes(20 if 200 <= x < 300 and 100 <= y < 200 else 220 for x in range(640)) for y in range(480)]
+    path.write_bytes(b"P5\n640 480\n255\n" + b"".join(rows))
+    return str(path)
+
+
 def check_program(block, folder, includes):
     """What is wrong with a block: (line, text), or None."""
     source, program = folder / "snippet.cpp", folder / "snippet"
@@ -117,7 +125,8 @@ def check_program(block, folder, includes):
     if not runs:
         return None
     try:
-        ran = subprocess.run([str(program)], cwd=folder, capture_output=True, text=True, timeout=PATIENCE_SECONDS)
+        arguments = [picture_in(folder)] if "argv[1]" in block.text() else []
+        ran = subprocess.run([str(program), *arguments], cwd=folder, capture_output=True, text=True, timeout=PATIENCE_SECONDS)
     except subprocess.TimeoutExpired:
         return block.line, f"runs for more than {PATIENCE_SECONDS} s"
     if ran.returncode != 0:

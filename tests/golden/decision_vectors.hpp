@@ -24,7 +24,9 @@ inline void put(Digest& digest, PartPoint point) { digest.add(point.x, point.y);
 inline void put(Digest& digest, const Threshold& threshold) {
     digest.add(threshold.part.level, threshold.part.below, threshold.contrast);
 }
-inline void put(Digest& digest, const PartMoments& moments) { digest.add(moments.frame, moments.region); }
+inline void put(Digest& digest, const PartMoments& moments) {
+    digest.add(moments.frame, moments.region, moments.symmetry);
+}
 inline void put(Digest& digest, const PartPose& pose) {
     digest.add(pose.frame.origin(), pose.frame.angle(), pose.orientation, pose.ends_certain, pose.margin,
                pose.elongation);
@@ -92,16 +94,16 @@ inline void decision_locate(Workspace& work, Digest& digest) {
         digest.add(threshold, work.regions.view(), work.holes.view());
         for (const Region& region : work.regions) {
             const Result<PartMoments> moments =
-                moments_of(image, rule, threshold.part, region, work.holes.span());
+                moments_of(image, rule, threshold.part, region, work.holes.span(), scale);
             digest.add(moments);
-            if (moments) digest.add(pose_of(*moments, rule, scale));
+            if (moments) digest.add(pose_of(*moments, rule, scale), needs_outline(rule));
         }
     };
     Histogram histogram;
     digest.add(histogram_of(image, histogram));
     for (const ThresholdRule kind : {ThresholdRule::fixed, ThresholdRule::otsu, ThresholdRule::quantile})
-        for (const OrientationRule orientation :
-             {OrientationRule::full, OrientationRule::symmetric, OrientationRule::none})
+        for (const OrientationRule orientation : {OrientationRule::full, OrientationRule::symmetric,
+                                                  OrientationRule::rotational, OrientationRule::none})
             for (const bool dark : {true, false}) {
                 LocateRule rule;
                 rule.threshold = kind;

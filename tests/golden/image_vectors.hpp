@@ -19,6 +19,7 @@
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/statistics/moments.hpp>
 #include <fovea/statistics/polygon_moments.hpp>
+#include <fovea/statistics/polygon_symmetry.hpp>
 #include <fovea/warp/bilinear.hpp>
 #include <golden/digest.hpp>
 #include <golden/workspace.hpp>
@@ -31,6 +32,7 @@ inline void put(Digest& digest, const Moments& m) {
 inline void put(Digest& digest, const CentralMoments& c) {
     digest.add(c.area, c.centroid, c.mu20, c.mu11, c.mu02, c.mu30, c.mu21, c.mu12, c.mu03);
 }
+inline void put(Digest& digest, const RotationalAxis& found) { digest.add(found.axis, found.strength); }
 inline void put(Digest& digest, const Orientation& orientation) {
     digest.add(orientation.axis, orientation.elongation);
 }
@@ -227,6 +229,24 @@ inline void statistics_polygon_moments(Workspace&, Digest& digest) {
             backward.add_edge(corners[k], corners[(k + 1) % 7], -1);
         }
         digest.add(forward.central(), backward.central());
+    }
+}
+
+inline void statistics_polygon_symmetry(Workspace&, Digest& digest) {
+    Random random(17);
+    for (int i = 0; i < 200; ++i) {
+        FinePoint corners[9];
+        const int reach = 1 << (random.below(12) + 1);
+        for (FinePoint& corner : corners) {
+            corner.x = FinePixel::from_raw(random.between(-reach * 65536, reach * 65536));
+            corner.y = FinePixel::from_raw(random.between(-reach * 65536, reach * 65536));
+        }
+        const PixelAspect aspect = PixelAspect::from_ratio(random.between(1, 16), 4);
+        PolygonSymmetry symmetry(corners[8], random.between(min_symmetry_order - 1, max_symmetry_order + 1),
+                                 aspect);
+        const int sign = i % 2 == 0 ? 1 : -1;
+        for (int k = 0; k < 7; ++k) symmetry.add_edge(corners[k], corners[(k + 1) % 7], sign);
+        digest.add(symmetry.axis());
     }
 }
 

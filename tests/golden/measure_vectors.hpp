@@ -145,6 +145,9 @@ inline void segment_fine_moments(Workspace& work, Digest& digest) {
         const Result<CentralMoments> moments = fine_moments(part, set, region, work.holes.span());
         digest.add(moments, fine_moments(part, set, region, {}));
         if (moments) digest.add(orientation(*moments));
+        for (int order = min_symmetry_order; moments && order <= max_symmetry_order; ++order)
+            digest.add(fine_symmetry(part, set, region, work.holes.span(), moments->centroid, order,
+                                     PixelAspect::from_ratio(order, 6)));
         Region wrong = region;
         wrong.first = {-1, 3};
         digest.add(fine_moments(part, set, wrong, {}));

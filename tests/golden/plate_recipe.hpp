@@ -43,7 +43,7 @@ inline PlateRecipe plate_recipe(ImageView<const Gray8> image, const Plate& plate
         return made;
     }
     const Result<PartMoments> moments =
-        moments_of(image, recipe.locate, made.threshold.part, regions[0], holes.span());
+        moments_of(image, recipe.locate, made.threshold.part, regions[0], holes.span(), recipe.scale);
     made.pose = pose_of(*moments, recipe.locate, recipe.scale);
     const Result<Asymmetry> ends = asymmetry(moments->region, made.pose.frame.angle());
     if (ends) recipe.locate.ends = *ends;

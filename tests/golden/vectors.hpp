@@ -45,6 +45,7 @@ inline constexpr Vector vectors[] = {
     {"statistics/histogram", statistics_histogram},
     {"statistics/moments", statistics_moments},
     {"statistics/polygon_moments", statistics_polygon_moments},
+    {"statistics/polygon_symmetry", statistics_polygon_symmetry},
     {"morphology/rectangles", morphology_rectangles},
     {"warp/bilinear", warp_bilinear},
     {"segment/connected_components", segment_connected_components},

@@ -78,6 +78,21 @@ inline Shape star() {
         return std::hypot(s, t) <= 75 - 85 * part;
     };
 }
+/// A regular polygon with the middle of a side to the right, that far from the centre.
+inline Shape polygon(int sides, double apothem) {
+    return [=](double s, double t) {
+        const double angle = std::remainder(std::atan2(t, s), 2 * pi / sides);
+        return std::hypot(s, t) * std::cos(angle) <= apothem;
+    };
+}
+/// A disc with holes around its middle.
+inline Shape flange(int holes) {
+    return [=](double s, double t) {
+        const double angle = std::remainder(std::atan2(t, s), 2 * pi / holes);
+        const double radius = std::hypot(s, t);
+        return radius <= 80 && std::hypot(radius * std::cos(angle) - 55, radius * std::sin(angle)) >= 9;
+    };
+}
 inline Shape gear() {
     return [](double s, double t) {
         const double radius = std::hypot(s, t);

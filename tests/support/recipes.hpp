@@ -10,6 +10,7 @@
 
 #include <fovea/base/random.hpp>
 #include <fovea/decision/recipe.hpp>
+#include <fovea/decision/recipe_range.hpp>
 #include <fovea/measure/edge_probe.hpp>
 #include <fovea/morphology/morphology.hpp>
 
@@ -130,7 +131,10 @@ inline Recipe random_recipe(Random& random) {
     locate.hole_area_min = between(random, 1, 67092481);
     locate.at_border = random.below(2) == 0;
     locate.pose = static_cast<PoseRule>(random.below(2));
-    locate.orientation = static_cast<OrientationRule>(random.below(3));
+    locate.orientation = static_cast<OrientationRule>(random.below(4));
+    if (locate.orientation == OrientationRule::rotational)
+        locate.symmetry_order = static_cast<int>(between(random, min_symmetry_order, max_symmetry_order));
+    if (needs_outline(locate)) locate.pose = PoseRule::outline;
     const auto end = [&] {
         return Ratio::from_raw(static_cast<std::int32_t>(between(random, -4 * Ratio::one, 4 * Ratio::one)));
     };
@@ -168,7 +172,8 @@ inline bool same(const Recipe& a, const Recipe& b) {
         p.dark_quantile != q.dark_quantile || p.bright_quantile != q.bright_quantile ||
         p.opening != q.opening || p.area_min != q.area_min || p.area_max != q.area_max ||
         p.hole_area_min != q.hole_area_min || p.at_border != q.at_border || p.pose != q.pose ||
-        p.orientation != q.orientation || !(p.ends == q.ends) || a.features.size() != b.features.size())
+        p.orientation != q.orientation || p.symmetry_order != q.symmetry_order || !(p.ends == q.ends) ||
+        a.features.size() != b.features.size())
         return false;
     for (int i = 0; i < a.features.size(); ++i)
         if (!same(a.features[i], b.features[i])) return false;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <list>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +54,20 @@ inline apps::Taught taught_from(const std::vector<apps::Picture<Gray8>>& picture
     std::vector<std::string> names;
     for (std::size_t i = 0; i < pictures.size(); ++i) names.push_back("good_" + std::to_string(i));
     return apps::teach(pictures, names, options);
+}
+
+/// The samples of a picture, which is kept for them.
+inline apps::Samples samples_of(const apps::Picture<Gray8>& picture, std::optional<bool> dark = {}) {
+    static std::list<std::vector<apps::Picture<Gray8>>> kept;
+    kept.push_back({picture});
+    return apps::find_samples(kept.back(), {"a.png"}, dark);
+}
+inline std::int64_t pixels_of(const apps::Sample& part) { return part.region.moments.area(); }
+
+/// A picture for two parts, and the plate in one beside another object.
+inline constexpr Size wide{460, 250};
+inline apps::Picture<Gray8> plate_beside(const Shape& other) {
+    return picture_of(wide, {{shapes::plate(), 115, 120, 5}, {other, 350, 120, 0}}, back_light(), 501);
 }
 
 /// "ok not_ok length:high": the verdicts of the parts in a picture, each with the features that are not OK.

@@ -214,8 +214,8 @@ TEST_F(GaugeCommand, TellsWhatIsThereInsteadOfAPart) {
         "good.pgm: no part found: the largest dark region has " + area + " px, and `area_max` is 2000\n");
     const std::string bright = complaint("area_min = 2000", "area_min = 2000\npart = \"bright\"");
     EXPECT_EQ(bright.compare(0, 53, "good.pgm: no part found: the largest bright region, 2"), 0) << bright;
-    EXPECT_NE(bright.find(
-                  " px, touches the border; does the part lie whole in the picture, and is `part` right?\n"),
+    EXPECT_NE(bright.find(" px, touches the border; does the part lie whole in the picture, is `part` right, "
+                          "is the light even?\n"),
               std::string::npos);
     EXPECT_EQ(
         complaint("area_min = 2000", "threshold = \"fixed\"\nlevel = 1"),

@@ -86,6 +86,7 @@ std::string recipe_with(const Key& key, const std::string& value) {
         text += "[locate]\n" + line;
         if (name == "level") text += "threshold = \"fixed\"\n";
         if (name.find("quantile") != std::string::npos) text += "threshold = \"quantile\"\n";
+        if (name == "symmetry_order") text += "orientation = \"rotational\"\n";
         if (name == "area_max") text += "area_min = 1\n";
     }
     return text + feature_with(key, value);

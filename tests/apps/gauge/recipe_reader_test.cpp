@@ -126,7 +126,7 @@ TEST(RecipeMistakes, OfMalformedToml) {
     EXPECT_EQ(problem_of("format = 1\n\n  = 3\n"), "3:3: expected a key, a [table] or a comment");
     EXPECT_EQ(problem_of("format = 01\n"), "1:10: a number must not begin with 0");
     EXPECT_EQ(problem_of(in_locate("level = 1e2")),
-              "3:9: expected a value: a \"string\", a number, true, false or an [array]");
+              "3:9: expected a number such as 25 or -2.5, without exponent or unit");
     EXPECT_EQ(problem_of(in_locate("ends = [1, 2,\n 3, 4]")),
               "3:14: expected a value: a \"string\", a number, true, false or an [array]");
     EXPECT_EQ(problem_of(in_locate("ends = [[1], 2]")), "3:9: an array inside an array");
@@ -349,6 +349,20 @@ TEST(RecipeMistakes, OfAScaleThatIsHalfGiven) {
     EXPECT_EQ(problem_of(in_scale("per_pixel_y = 1.5")),
               "3:1: [scale] lacks per_pixel_x: how long a pixel is in px");
     EXPECT_EQ(problem_of(in_scale("unit = \"px\"")), "");
+}
+
+TEST(RecipeMistakes, OfSymmetry) {
+    EXPECT_EQ(problem_of(in_locate("orientation = \"rotational\"\nsymmetry_order = 6")), "");
+    EXPECT_EQ(problem_of(in_locate("orientation = \"rotational\"")),
+              "3:1: [locate] lacks symmetry_order: in how many directions the part looks the same");
+    EXPECT_EQ(problem_of(in_locate("symmetry_order = 6")),
+              "3:1: symmetry_order has no meaning without orientation = \"rotational\"");
+    EXPECT_EQ(problem_of(in_locate("orientation = \"rotational\"\nsymmetry_order = 2")),
+              "4:18: symmetry_order: expected a whole number from 3 to 12, not 2");
+    const std::string opened = "orientation = \"rotational\"\nsymmetry_order = 6\nopening = 3\n";
+    EXPECT_EQ(problem_of(in_locate(opened)),
+              "5:1: orientation = \"rotational\" with an opening needs pose = \"outline\"");
+    EXPECT_EQ(problem_of(in_locate(opened + "pose = \"outline\"")), "");
 }
 
 TEST(RecipeMistakes, OfKeysWithoutMeaningBesideTheThreshold) {

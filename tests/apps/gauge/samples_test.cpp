@@ -16,26 +16,15 @@ namespace {
 using namespace shapes;
 using apps::find_samples;
 using apps::Picture;
-using apps::rule_from;
 using apps::Samples;
 using Notes = std::vector<std::string>;
 
-constexpr Size wide{460, 250};
-
-/// The plate beside another object.
-Picture<Gray8> plate_beside(const Shape& other) {
-    return picture_of(wide, {{plate(), 115, 120, 5}, {other, 350, 120, 0}}, back_light(), 501);
-}
-Samples samples_of(const Picture<Gray8>& picture, std::optional<bool> dark = {}) {
-    return find_samples({picture}, {"a.png"}, dark);
-}
 /// A picture of one level.
 Picture<Gray8> flat(Gray8 level) {
     Picture<Gray8> picture({60, 50});
     std::fill(picture.pixels.begin(), picture.pixels.end(), level);
     return picture;
 }
-std::int64_t pixels_of(const apps::Sample& part) { return part.region.moments.area(); }
 
 TEST(Samples, FindsBrightnessAndHolesByItself) {
     const Samples dark = samples_of(lying(plate(), 20, 502));
@@ -112,93 +101,6 @@ TEST(Samples, LeaveOutWhatEnclosesLessThanThreeQuartersOfTheLargest) {
     EXPECT_EQ(smaller.parts[0].holes.size(), 2u);
     ASSERT_EQ(smaller.other_areas.size(), 1u);
     EXPECT_NEAR(static_cast<double>(smaller.other_areas[0]), 120 * 70, 190);
-}
-
-// ---- The rule ----------------------------------------------------------------------------------
-
-TEST(RuleFrom, AllowsAQuarterMoreAndLessThanTheParts) {
-    const Samples samples = samples_of(lying(plate(), 0, 509));
-    const std::int64_t area = pixels_of(samples.parts.at(0));
-    const LocateRule rule = rule_from(samples, Scale());
-    EXPECT_EQ(rule.area_min, area * 3 / 4);
-    EXPECT_EQ(rule.area_max, area * 5 / 4);
-    EXPECT_TRUE(rule.dark_part);
-    EXPECT_EQ(rule.orientation, OrientationRule::full);
-}
-
-TEST(RuleFrom, MovesTheGateHalfwayToAnObjectThatIsNearlyAsLarge) {
-    // The plate encloses 12300 px but has 11339 without its holes; the bar has 8820, more than three quarters
-    // of that.
-    const Samples samples = samples_of(plate_beside(rectangle(126, 70)));
-    ASSERT_EQ(samples.parts.size(), 1u);
-    ASSERT_EQ(samples.other_areas.size(), 1u);
-    const std::int64_t area = pixels_of(samples.parts[0]);
-    const std::int64_t other = samples.other_areas[0];
-    ASSERT_GT(other, area * 3 / 4);
-    const LocateRule rule = rule_from(samples, Scale());
-    EXPECT_EQ(rule.area_min, (area + other + 1) / 2);
-    EXPECT_EQ(rule.area_max, area * 5 / 4);
-    const apps::Taught taught = taught_from({plate_beside(rectangle(126, 70))});
-    EXPECT_EQ(taught.notes, Notes());
-    EXPECT_EQ(verdicts_of(plate_beside(rectangle(126, 70)), taught.recipe), "ok");
-}
-
-TEST(RuleFrom, MovesTheUpperGateToAnObjectThatHasMorePixelsButEnclosesLess) {
-    // A ring encloses much and has few pixels.
-    const Picture<Gray8> picture =
-        picture_of(wide, {{ring(80, 55), 115, 120, 0}, {rectangle(150, 80), 340, 120, 0}}, back_light(), 510);
-    const Samples samples = samples_of(picture);
-    ASSERT_EQ(samples.parts.size(), 1u);
-    ASSERT_EQ(samples.other_areas.size(), 1u);
-    const std::int64_t area = pixels_of(samples.parts[0]);
-    ASSERT_GT(samples.other_areas[0], area);
-    const LocateRule rule = rule_from(samples, Scale());
-    EXPECT_EQ(rule.area_max, (area + samples.other_areas[0]) / 2);
-    EXPECT_EQ(rule.area_min, area * 3 / 4);
-}
-
-TEST(RuleFrom, TakesThePartsOfLeastAndMostAreaForItsGate) {
-    const Samples samples = samples_of(plate_beside(rectangle(150, 70)));
-    ASSERT_EQ(samples.parts.size(), 2u);
-    const std::int64_t least = std::min(pixels_of(samples.parts[0]), pixels_of(samples.parts[1]));
-    const std::int64_t most = std::max(pixels_of(samples.parts[0]), pixels_of(samples.parts[1]));
-    ASSERT_LT(least, most);
-    const LocateRule rule = rule_from(samples, Scale());
-    EXPECT_EQ(rule.area_min, least * 3 / 4);
-    EXPECT_EQ(rule.area_max, most * 5 / 4);
-}
-
-TEST(RuleFrom, TakesHolesBelowAThreeThousandthOfThePartForDirt) {
-    // 40000 px: holes count from 13 px on. One of the radius 1.5 has about 7, one of 3.5 about 38.
-    const Shape dirty = without(without(rectangle(200, 200), disc(1.5), 40, 30), disc(3.5), -50, -20);
-    const Picture<Gray8> picture = lying(dirty, 0, 511);
-    const Samples samples = samples_of(picture);
-    ASSERT_EQ(samples.parts.size(), 1u);
-    EXPECT_EQ(samples.parts[0].holes.size(), 1u);
-    EXPECT_EQ(samples.parts[0].region.holes, 1);
-    EXPECT_EQ(samples.parts[0].region.hole_area, samples.parts[0].holes.at(0).moments.area());
-    EXPECT_EQ(rule_from(samples, Scale()).hole_area_min, pixels_of(samples.parts[0]) / 3000);
-    const apps::Taught taught = taught_from({picture});
-    EXPECT_EQ(nominal_of(taught.recipe, "holes"), 1);
-    EXPECT_EQ(verdicts_of(picture, taught.recipe), "ok");
-}
-
-TEST(RuleFrom, TellsEndsApartOnlyWhereEverySampleAgrees) {
-    const Shape bar = rectangle(160, 60);
-    EXPECT_EQ(rule_from(samples_of(lying(bar, 30, 512)), Scale()).orientation, OrientationRule::symmetric);
-    EXPECT_EQ(rule_from(samples_of(lying(disc(50), 30, 513)), Scale()).orientation, OrientationRule::none);
-    const Picture<Gray8> both =
-        picture_of(wide, {{plate(), 115, 120, 5}, {rectangle(175, 70), 345, 120, 0}}, back_light(), 514);
-    const Samples samples = samples_of(both);
-    ASSERT_EQ(samples.parts.size(), 2u);
-    const LocateRule rule = rule_from(samples, Scale());
-    EXPECT_EQ(rule.orientation, OrientationRule::symmetric);
-    EXPECT_TRUE(ends_disagree(samples, rule, Scale()));
-    EXPECT_FALSE(ends_disagree(samples_of(lying(bar, 30, 512)), rule, Scale()));
-    // Of a round and a long sample, one has no axis.
-    const Picture<Gray8> round_and_long =
-        picture_of(wide, {{rectangle(160, 50), 115, 120, 5}, {disc(50), 345, 120, 0}}, back_light(), 515);
-    EXPECT_EQ(rule_from(samples_of(round_and_long), Scale()).orientation, OrientationRule::none);
 }
 
 }  // namespace

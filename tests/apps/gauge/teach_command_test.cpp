@@ -111,7 +111,11 @@ TEST_F(TeachCommand, SaysWhatItFoundOutAboutTheEndsOfThePart) {
     EXPECT_EQ(lines_of(io.out)[0], "1 good part, bright on dark, the same when turned by half");
     io.put("disc.pgm", pgm_of(lying(disc(60), 12, 704)));
     taught_by({"disc.pgm"});
-    EXPECT_EQ(lines_of(io.out)[0], "1 good part, dark on bright, without a clear axis: measured as it lies");
+    EXPECT_EQ(lines_of(io.out)[0], "1 good part, dark on bright, without a direction");
+    io.put("nut.pgm", pgm_of(lying(polygon(6, 60), 12, 706)));
+    taught_by({"nut.pgm"});
+    EXPECT_EQ(lines_of(io.out)[0], "1 good part, dark on bright, the same in 6 directions");
+    EXPECT_NE(io.text("r.toml").find("\nsymmetry_order = 6"), std::string::npos);
 }
 
 TEST_F(TeachCommand, DrawsTheProposalIntoTheFirstPicture) {

@@ -178,20 +178,25 @@ TEST(Teach, PutsTheHolesWhereTheyAreOnAverage) {
     for (const Picture<Gray8>& picture : good) EXPECT_EQ(verdicts_of(picture, recipe), "ok");
 }
 
-TEST(Teach, SaysThatAPartWithoutAnAxisMustLieAsInThePictures) {
-    const auto warned = [](const Taught& taught) {
-        return std::any_of(taught.notes.begin(), taught.notes.end(), [](const std::string& note) {
-            return note.find("the part has no clear axis") != std::string::npos;
-        });
+TEST(Teach, ProposesOnlyWhatDoesNotDependOnTheTurnOfAPartWithoutDirection) {
+    // Waves of two orders, of which none stands out.
+    const auto cam = [](double hole) -> Shape {
+        return [hole](double s, double t) {
+            const double angle = std::atan2(t, s);
+            const double radius = std::hypot(s, t);
+            return radius <= 70 + 5 * std::cos(3 * angle) + 5 * std::cos(5 * angle + 1) && radius > hole;
+        };
     };
-    const Taught square = taught_from({lying(rectangle(90, 90), 7, 430)});
-    EXPECT_EQ(square.recipe.locate.orientation, OrientationRule::none);
-    EXPECT_TRUE(warned(square));
-    // A disc is the same however it lies, and a plate has an axis.
-    const Taught round = taught_from({lying(disc(60), 0, 431)});
-    EXPECT_EQ(round.recipe.locate.orientation, OrientationRule::none);
-    EXPECT_FALSE(warned(round));
-    EXPECT_FALSE(warned(taught_from({lying(plate(), 0, 432)})));
+    const Taught taught = taught_from({lying(cam(20), 7, 430)});
+    EXPECT_EQ(taught.problem, "");
+    EXPECT_EQ(taught.recipe.locate.orientation, OrientationRule::none);
+    EXPECT_EQ(feature_named(taught.recipe, "length"), nullptr);
+    EXPECT_EQ(feature_named(taught.recipe, "angle_1"), nullptr);
+    EXPECT_NE(feature_named(taught.recipe, "hole_1"), nullptr);
+    ASSERT_EQ(taught.notes.size(), 1u);
+    EXPECT_EQ(taught.notes[0].compare(0, 44, "the part has no clear axis and no symmetry, "), 0);
+    accepts_in_twenty_poses(taught.recipe, cam(20), 180, 435);
+    EXPECT_EQ(verdicts_of(lying(cam(20.75), 100, 436), taught.recipe), "not_ok hole_1:high");
 }
 
 TEST(Teach, SaysThatALengthDiffersByMoreThanHalfAPixel) {
@@ -248,14 +253,52 @@ TEST(Teach, MeasuresAPartWithAlikeEndsEitherWayRound) {
     EXPECT_EQ(lacking.compare(0, 17, "not_ok holes:low "), 0) << lacking;
 }
 
-TEST(Teach, MeasuresASquareAsItLies) {
-    const Picture<Gray8> good = lying(rectangle(120, 120), 0, 428);
-    const Recipe recipe = taught_from({good}).recipe;
-    EXPECT_EQ(recipe.locate.orientation, OrientationRule::none);
+TEST(Teach, MeasuresASquareHoweverItLies) {
+    const Picture<Gray8> good = lying(rectangle(120, 120), 7, 428);
+    const Recipe recipe = recipe_of(taught_from({good}));
+    EXPECT_EQ(recipe.locate.orientation, OrientationRule::rotational);
+    EXPECT_EQ(recipe.locate.symmetry_order, 4);
+    EXPECT_EQ(feature_names(recipe), (Names{"length", "width_1", "angle_1", "angle_2", "holes"}));
     EXPECT_NEAR(nominal_of(recipe, "length"), 120, 0.05);
     EXPECT_EQ(verdicts_of(good, recipe), "ok");
-    accepts_in_twenty_poses(recipe, rectangle(120, 120), 0.5, 429);
-    EXPECT_EQ(verdicts_of(lying(rectangle(121.5, 120), 0, 430), recipe), "not_ok length:high");
+    accepts_in_twenty_poses(recipe, rectangle(120, 120), 180, 429);
+    for (const double turn : {0, 20, 60, 100})
+        EXPECT_NE(verdicts_of(lying(rectangle(121.5, 120), turn, 430), recipe).find("high"),
+                  std::string::npos)
+            << turn;
+    EXPECT_EQ(verdicts_of(lying(disc(67.7), 0, 430), recipe),
+              "unmeasured length:unmeasured width_1:unmeasured "
+              "angle_1:unmeasured angle_2:unmeasured holes:unmeasured");
+}
+
+TEST(Teach, MeasuresEveryPairOfFlatsOfANutHoweverItLies) {
+    const auto nut = [](double across) { return without(polygon(6, across / 2), disc(30), 0, 0); };
+    const Recipe recipe = recipe_of(taught_from({lying(nut(130), 7, 436)}));
+    EXPECT_EQ(recipe.locate.orientation, OrientationRule::rotational);
+    EXPECT_EQ(recipe.locate.symmetry_order, 6);
+    for (const char* name : {"length", "width_1", "width_2"})
+        EXPECT_NEAR(nominal_of(recipe, name), 130, 0.05) << name;
+    accepts_in_twenty_poses(recipe, nut(130), 180, 437);
+    // Too small however it lies, and a nut of which one pair of flats is worn, whichever it is.
+    const auto worn = [&](double s, double t) { return nut(130)(s, t) && std::abs(s) <= 64.4; };
+    Random random(438);
+    for (int i = 0; i < 20; ++i) {
+        const double turn = uniform(random, -180, 180);
+        EXPECT_EQ(verdicts_of(lying(nut(128.8), turn, random.next()), recipe),
+                  "not_ok length:low width_1:low width_2:low")
+            << turn;
+        EXPECT_EQ(verdicts_of(lying(worn, turn, random.next()), recipe).compare(0, 6, "not_ok"), 0) << turn;
+    }
+}
+
+TEST(Teach, MeasuresTheHolesOfAFlangeHoweverItLies) {
+    const Recipe recipe = recipe_of(taught_from({lying(flange(6), 7, 439)}));
+    EXPECT_EQ(recipe.locate.symmetry_order, 6);
+    for (const char* name : {"diameter", "hole_1", "hole_6", "hole_1_position", "hole_6_position"})
+        EXPECT_NE(feature_named(recipe, name), nullptr) << name;
+    accepts_in_twenty_poses(recipe, flange(6), 180, 440);
+    const Shape lacking = with(flange(6), disc(12), 55, 0);
+    EXPECT_EQ(verdicts_of(lying(lacking, 100, 441), recipe).compare(0, 16, "not_ok holes:low"), 0);
 }
 
 TEST(Teach, SaysThatAPartWithoutTwoEndsHasNoLength) {

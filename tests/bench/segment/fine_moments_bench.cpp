@@ -62,6 +62,17 @@ const bool moments_added = add(43, "fine moments of a part with two holes", Size
     row.ours([&] { consume(fine_moments(found.picture.view(), dark, found.region, found.holes.span())); });
 });
 
+const bool symmetry_added = add(43, "symmetry of a part with two holes, one order", Sizes::vga, [](Row& row) {
+    row.not_per_pixel();
+    auto& found = row.keep(Found(row.size()));
+    const FinePoint middle =
+        fine_moments(found.picture.view(), dark, found.region, found.holes.span())->centroid;
+    row.ours([&, middle] {
+        consume(fine_symmetry(found.picture.view(), dark, found.region, found.holes.span(), middle, 4,
+                              PixelAspect::from_int(1)));
+    });
+});
+
 const bool ends_added = add(44, "orientation and which end", Sizes::vga, [](Row& row) {
     row.not_per_pixel();
     auto& found = row.keep(Found(row.size()));

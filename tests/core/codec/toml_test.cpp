@@ -172,7 +172,12 @@ TEST(TomlReader, RefusesOtherFormsOfNumbers) {
     for (const char* number : {"1.",   ".5",    "1e5", "1E5", "1e+5", "1_000",      "0x1f", "0b1",  "inf",
                                "-nan", "1.2.3", "+-1", "--1", "1+1",  "1979-05-27", "True", "TRUE", "truee",
                                "tru",  "yes",   "'x'", "{}",  "x",    "+true",      "-",    "+"})
-        EXPECT_EQ(value_of(number).substr(0, 20), "1:5 expected a value") << number;
+        EXPECT_EQ(value_of(number).substr(0, 15), "1:5 expected a ") << number;
+    const std::string as_number = "1:5 expected a number such as 25 or -2.5, without exponent or unit";
+    for (const char* number : {"1e5", "12mm", "-1.", "+x", "0x1f"})
+        EXPECT_EQ(value_of(number), as_number) << number;
+    for (const char* word : {".5", "inf", "yes", "'x'"})
+        EXPECT_EQ(value_of(word).substr(0, 20), "1:5 expected a value") << word;
     for (const char* number : {"01", "-01", "+007", "00", "00.5", "-00"})
         EXPECT_EQ(value_of(number), "1:5 a number must not begin with 0") << number;
 }
@@ -261,7 +266,9 @@ TEST(TomlReader, NamesEveryOtherProblemWithItsPlace) {
         {"a =\nb = 1", {"1:4 expected a value: a \"string\", a number, true, false or an [array]"}},
         {"a = # c", {"1:5 expected a value: a \"string\", a number, true, false or an [array]"}},
         {"a = 1 b = 2", {"1:7 something stands behind the value or name"}},
-        {"a = 1,", {"1:6 something stands behind the value or name"}},
+        {"a = 1,", {"1:6 something stands behind the number; it has a point, not a comma"}},
+        {"a = 1,5", {"1:6 something stands behind the number; it has a point, not a comma"}},
+        {"a = true,", {"1:9 something stands behind the value or name"}},
         {"a = true false", {"1:10 something stands behind the value or name"}},
         {"a = \"x\" y", {"1:9 something stands behind the value or name"}},
         {std::string("a = 1\0", 6), {"1:6 something stands behind the value or name"}},

@@ -322,16 +322,16 @@ Recipe hostile_recipe(Random& random) {
                                          &rule.hole_area_min};
         int* const counts[] = {&feature.lines,        &feature.probes,     &feature.smoothing,
                                &feature.contrast_min, &feature.first_edge, &feature.second_edge,
-                               &rule.opening};
+                               &rule.opening,         &rule.symmetry_order};
         switch (random.below(5)) {
             case 0: places[random.below(5)]->x = hostile(random); break;
             case 1: places[random.below(5)]->y = hostile(random); break;
             case 2: *lengths[random.below(12)] = hostile(random); break;
-            case 3: *counts[random.below(7)] = hostile_int(random); break;
+            case 3: *counts[random.below(8)] = hostile_int(random); break;
             default:
                 rule.ends.sss = Ratio::from_raw(hostile_int(random));
                 rule.ends.ttt = Ratio::from_raw(hostile_int(random));
-                rule.orientation = static_cast<OrientationRule>(random.below(4));
+                rule.orientation = static_cast<OrientationRule>(random.below(5));
                 rule.threshold = static_cast<ThresholdRule>(random.below(4));
                 rule.pose = static_cast<PoseRule>(random.below(3));
                 break;

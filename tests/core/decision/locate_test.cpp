@@ -35,7 +35,7 @@ PartPose pose_in(ImageView<const Gray8> image, const LocateRule& rule) {
     EXPECT_EQ(found.parts.size(), 1);
     if (found.parts.empty()) return PartPose();
     const Result<PartMoments> moments =
-        moments_of(image, rule, found.threshold.part, found.parts[0], found.holes.span());
+        moments_of(image, rule, found.threshold.part, found.parts[0], found.holes.span(), Scale());
     EXPECT_TRUE(moments.ok());
     return moments ? pose_of(*moments, rule, Scale()) : PartPose();
 }
@@ -213,6 +213,52 @@ TEST(PoseOf, DoesNotTellTheEndsOfABarApart) {
     EXPECT_NEAR(pose.frame.angle().microdegrees() * 1e-6, 0.5 * 180 / pi, 0.1);
 }
 
+TEST(PoseOf, TurnsWithASquareWhenItsSymmetryIsTold) {
+    Random random(665);
+    const auto square = [](double s, double t) { return std::abs(s) < 25 && std::abs(t) < 25; };
+    LocateRule rule;
+    rule.orientation = OrientationRule::rotational;
+    rule.symmetry_order = 4;
+    for (const int opening : {1, 3}) {
+        rule.opening = opening;
+        rule.pose = opening == 1 ? PoseRule::region : PoseRule::outline;
+        for (int i = 0; i < 20; ++i) {
+            const double angle = uniform(random, -pi, pi);
+            const PartPose pose = pose_in(turned(square, angle, random).view(), rule);
+            EXPECT_EQ(pose.orientation, Status::ok);
+            EXPECT_FALSE(pose.ends_certain);
+            const double off = pose.frame.angle().microdegrees() * 1e-6 - angle * 180 / pi;
+            EXPECT_LT(std::abs(std::remainder(off, 90)), 0.1) << opening << " " << i;
+        }
+    }
+    rule.symmetry_order = 3;
+    EXPECT_EQ(pose_in(turned(square, 0.5, random).view(), rule).orientation, Status::degenerate);
+    EXPECT_EQ(pose_in(turned(disc, 0, random).view(), rule).orientation, Status::degenerate);
+}
+
+TEST(PoseOf, TurnsWithTheHolesOfAFlange) {
+    Random random(666);
+    const auto flange = [](double s, double t) {
+        if (std::hypot(s, t) > 34) return false;
+        for (int i = 0; i < 4; ++i)
+            if (std::hypot(s - 22 * std::cos(i * pi / 2), t - 22 * std::sin(i * pi / 2)) < 5) return false;
+        return true;
+    };
+    LocateRule rule;
+    rule.orientation = OrientationRule::rotational;
+    for (int i = 0; i < 20; ++i) {
+        const double angle = uniform(random, -pi, pi);
+        const GuardedImage<Gray8> image = turned(flange, angle, random);
+        rule.pose = PoseRule::region;
+        const PartPose pose = pose_in(image.view(), rule);
+        EXPECT_EQ(pose.orientation, Status::ok);
+        const double off = pose.frame.angle().microdegrees() * 1e-6 - angle * 180 / pi;
+        EXPECT_LT(std::abs(std::remainder(off, 90)), 0.3) << i;
+        rule.pose = PoseRule::outline;
+        EXPECT_EQ(pose_in(image.view(), rule).orientation, Status::degenerate);
+    }
+}
+
 TEST(PoseOf, RestsOnTheOutlineWhenAskedTo) {
     Random random(663);
     LocateRule rule;
@@ -242,7 +288,7 @@ TEST(PoseOf, IsNeverWrongAboutTheEndsWhenItIsCertain) {
         const Found found = find(model.view(), rule);
         ASSERT_EQ(found.parts.size(), 1);
         const Result<PartMoments> moments =
-            moments_of(model.view(), rule, found.threshold.part, found.parts[0], found.holes.span());
+            moments_of(model.view(), rule, found.threshold.part, found.parts[0], found.holes.span(), Scale());
         ASSERT_TRUE(moments.ok());
         rule.ends = *asymmetry(moments->region, FineAngle());
         int certain = 0;

@@ -49,7 +49,18 @@ TEST(RecipeRange, RefusesARuleForEveryFieldThatIsOutside) {
     EXPECT_TRUE(rule_with([](LocateRule& r) { r.ends.ttt = Ratio::from_int(-4); }));
     EXPECT_FALSE(rule_with([](LocateRule& r) { r.threshold = static_cast<ThresholdRule>(3); }));
     EXPECT_FALSE(rule_with([](LocateRule& r) { r.pose = static_cast<PoseRule>(2); }));
-    EXPECT_FALSE(rule_with([](LocateRule& r) { r.orientation = static_cast<OrientationRule>(3); }));
+    EXPECT_FALSE(rule_with([](LocateRule& r) { r.orientation = static_cast<OrientationRule>(4); }));
+    EXPECT_FALSE(rule_with([](LocateRule& r) { r.symmetry_order = min_symmetry_order - 1; }));
+    EXPECT_FALSE(rule_with([](LocateRule& r) { r.symmetry_order = max_symmetry_order + 1; }));
+    const auto opened = [](PoseRule pose) {
+        return rule_with([&](LocateRule& r) {
+            r.orientation = OrientationRule::rotational;
+            r.opening = 3;
+            r.pose = pose;
+        });
+    };
+    EXPECT_TRUE(opened(PoseRule::outline));
+    EXPECT_FALSE(opened(PoseRule::region));
     EXPECT_FALSE(rule_with([](LocateRule& r) { r.dark_quantile = -1; }));
     EXPECT_FALSE(rule_with([](LocateRule& r) { r.bright_quantile = 1000001; }));
     EXPECT_FALSE(rule_with([](LocateRule& r) { r.opening = 2; }));

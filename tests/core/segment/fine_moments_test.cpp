@@ -131,5 +131,55 @@ TEST(FineMoments, OfTheLargestRegionsAreThoseOfTheirPixels) {
     EXPECT_EQ(moments->centroid, fine(50 + 4095 / 2.0, 1));
 }
 
+TEST(FineSymmetry, GivesANutItsDirection) {
+    Random random(683);
+    for (int i = 0; i < 40; ++i) {
+        const double x = uniform(random, 27, 29);
+        const double y = uniform(random, 27, 29);
+        const double turn = uniform(random, -pi, pi);
+        Scene scene;
+        scene.noise = 4;
+        const GuardedImage<Gray8> image = render({56, 56}, scene, random, [&](double u, double v) {
+            const double radius = std::hypot(u - x, v - y);
+            const double angle = std::remainder(std::atan2(v - y, u - x) - turn, pi / 3);
+            return radius * std::cos(angle) < 20 && radius > 9;
+        });
+        const Components found = components_of(image.view(), dark);
+        ASSERT_EQ(found.regions.size(), 1);
+        const Region& nut = found.regions[0];
+        const CentralMoments moments = *fine_moments(image.view(), dark, nut, {});
+        const auto symmetry = [&](Span<const Hole> holes, int order) {
+            return fine_symmetry(image.view(), dark, nut, holes, moments.centroid, order,
+                                 PixelAspect::from_int(1));
+        };
+        const Result<RotationalAxis> axis = symmetry({}, 6);
+        ASSERT_TRUE(axis.ok());
+        // The corners are rounded by the lens and cut by the contour: less than the 0.059 of a hexagon.
+        EXPECT_NEAR(axis->strength.raw() / 65536.0, 0.055, 0.004);
+        const double degrees = axis->axis.microdegrees() * 1e-6;
+        EXPECT_LT(std::abs(std::remainder(degrees - turn * 180 / pi, 60)), 0.5) << i;
+        // The hole is not part of the whole: the same harmonic has less area.
+        const Result<RotationalAxis> with_hole = symmetry(found.holes.span(), 6);
+        ASSERT_TRUE(with_hole.ok());
+        EXPECT_GT(with_hole->strength.raw() * 100, axis->strength.raw() * 115);
+        const Result<RotationalAxis> other = symmetry({}, 5);
+        EXPECT_TRUE(!other || other->strength.raw() * 8 < axis->strength.raw());
+    }
+}
+
+TEST(FineSymmetry, RefusesARegionOfAnotherImage) {
+    GuardedImage<Gray8> image({9, 9});
+    image.fill(Gray8{200});
+    Region region;
+    region.first = {4, 4};
+    const auto status = [&] {
+        return fine_symmetry(image.view(), dark, region, {}, fine(4, 4), 4, PixelAspect::from_int(1))
+            .status();
+    };
+    EXPECT_EQ(status(), Status::bad_argument);
+    region.first = {9, 4};
+    EXPECT_EQ(status(), Status::out_of_range);
+}
+
 }  // namespace
 }  // namespace fovea::test

@@ -109,7 +109,7 @@ inline Feature feature_from(Bytes& bytes) {
 inline void change_rule(Bytes& bytes, LocateRule& rule) {
     const auto end = [&] { return Ratio::from_raw(bytes.integer(-4 * Ratio::one, 4 * Ratio::one)); };
     constexpr std::int64_t pixels = 67092481;
-    switch (bytes.byte() % 13) {
+    switch (bytes.byte() % 14) {
         case 0: rule.dark_part = bytes.byte() % 2 == 0; break;
         case 1: rule.threshold = static_cast<ThresholdRule>(bytes.byte() % 5); break;
         case 2: rule.level = bytes.byte(); break;
@@ -122,6 +122,7 @@ inline void change_rule(Bytes& bytes, LocateRule& rule) {
         case 9: rule.at_border = bytes.byte() % 2 == 0; break;
         case 10: rule.pose = static_cast<PoseRule>(bytes.byte() % 4); break;
         case 11: rule.orientation = static_cast<OrientationRule>(bytes.byte() % 5); break;
+        case 12: rule.symmetry_order = bytes.integer(min_symmetry_order, max_symmetry_order); break;
         default: rule.ends = {end(), end(), end(), end()}; break;
     }
 }
@@ -157,8 +158,10 @@ inline void change_feature(Bytes& bytes, Feature& feature) {
 inline Recipe recipe_from(Bytes& bytes) {
     Recipe recipe;
     const std::uint8_t first = bytes.byte();
-    recipe.locate.orientation = first % 2 == 0 ? OrientationRule::symmetric : OrientationRule::full;
-    const int features = first / 2 % 4;
+    constexpr OrientationRule rules[] = {OrientationRule::symmetric, OrientationRule::full,
+                                         OrientationRule::rotational, OrientationRule::full};
+    recipe.locate.orientation = rules[first % 4];
+    const int features = first / 4 % 4;
     for (int i = 0; i < features; ++i) static_cast<void>(recipe.features.push(feature_from(bytes)));
     while (!bytes.empty()) {
         const std::uint8_t what = bytes.byte();

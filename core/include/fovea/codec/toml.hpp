@@ -216,6 +216,8 @@ constexpr Result<TomlItem> TomlReader::pair() {
     const Result<TomlValue> read = peek() == '[' ? array() : value();
     if (!read) return read.status();
     item.value = *read;
+    if (peek() == ',' && (read->type == TomlType::integer || read->type == TomlType::decimal))
+        return fail("something stands behind the number; it has a point, not a comma");
     if (Status s = skip_line_end(); s != Status::ok) return s;
     return item;
 }
@@ -264,6 +266,9 @@ constexpr Result<TomlValue> TomlReader::word() {
     if (number.status() == Status::out_of_range)
         return fail("a number with more than six places or beyond a hundred million", value.place,
                     Status::out_of_range);
+    const char first = value.text[0];
+    if (!number && (first == '+' || first == '-' || (first >= '0' && first <= '9')))
+        return fail("expected a number such as 25 or -2.5, without exponent or unit", value.place);
     if (!number)
         return fail("expected a value: a \"string\", a number, true, false or an [array]", value.place);
     value.number = *number;

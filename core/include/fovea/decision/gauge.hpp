@@ -125,7 +125,7 @@ inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std
     parts.clear();
     for (const Region& region : regions) {
         const Result<PartMoments> moments =
-            moments_of(image, recipe.locate, threshold.part, region, holes.span());
+            moments_of(image, recipe.locate, threshold.part, region, holes.span(), recipe.scale);
         if (!moments) continue;
         PartResult* part = parts.append();
         if (part == nullptr) break;  // there is room for every region

@@ -24,6 +24,7 @@
 #include <fovea/segment/level_contour.hpp>
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/statistics/moments.hpp>
+#include <fovea/statistics/polygon_symmetry.hpp>
 
 namespace fovea {
 
@@ -40,17 +41,20 @@ struct PartPose {
 };
 
 /// The moments that say how a part lies: origin and axis follow from those of the frame, which end is the
-/// front from those of the region.
+/// front from those of the region. Of the rotational rule alone, the symmetry of the frame.
 struct PartMoments {
     CentralMoments frame;
     CentralMoments region;
+    Result<RotationalAxis> symmetry = Status::degenerate;
 };
 
 /// The pose of a part with these moments under the rule of a recipe.
 ///
-/// Source  book eq. 6.1-6.8; an axis of less than least_elongation is none
+/// Source  book eq. 6.1-6.8; an axis of less than least_elongation, or of a symmetry weaker than
+///         least_symmetry, is none
 constexpr PartPose pose_of(const PartMoments& moments, const LocateRule& rule, const Scale& scale);
 inline constexpr Ratio least_elongation = Ratio::from_ratio(1, 50);
+inline constexpr Ratio least_symmetry = Ratio::from_ratio(1, 200);
 
 /// What tells part from ground in an image.
 struct Threshold {
@@ -59,11 +63,13 @@ struct Threshold {
 };
 
 /// The moments of a part that find_parts() found: from its contour, or from its pixels where the rule opened
-/// the image first and the contour in the image is another.
+/// the image first and the contour in the image is another. Symmetry is always that of the contour: what the
+/// opening clears weighs little in it, but its holes are then others, so that an opened part needs
+/// PoseRule::outline for it.
 ///
 /// Errors  as fine_moments()
 inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
-                                      const Region& region, Span<const Hole> holes);
+                                      const Region& region, Span<const Hole> holes, const Scale& scale);
 
 /// The threshold that a rule asks for.
 ///
@@ -96,6 +102,15 @@ constexpr PartPose pose_of(const PartMoments& moments, const LocateRule& rule, c
     if (axis) pose.elongation = axis->elongation;
     if (rule.orientation == OrientationRule::none) {
         pose.orientation = Status::ok;
+        return pose;
+    }
+    if (rule.orientation == OrientationRule::rotational) {
+        if (!moments.symmetry || moments.symmetry->strength < least_symmetry) {
+            pose.orientation = Status::degenerate;
+            return pose;
+        }
+        pose.orientation = Status::ok;
+        pose.frame = PartFrame(origin, moments.symmetry->axis, scale);
         return pose;
     }
     if (!axis || axis->elongation < least_elongation) {
@@ -147,20 +162,41 @@ inline Result<Threshold> threshold_of(const Histogram& histogram, const LocateRu
     return result;
 }
 
+namespace detail {
+
+/// The symmetry that the rotational rule asks for, about the origin of the frame.
+inline Result<RotationalAxis> symmetry_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
+                                          const Region& region, Span<const Hole> holes, FinePoint origin,
+                                          const Scale& scale) {
+    if (rule.orientation != OrientationRule::rotational) return Status::degenerate;
+    Region traced = region;
+    if (!image.contains(traced.first)) return Status::out_of_range;
+    // In an image that was opened the region began lower.
+    while (traced.first.y > 0 && part.contains(image(traced.first.x, traced.first.y - 1))) --traced.first.y;
+    return fine_symmetry(image, part, traced, rule.pose == PoseRule::region ? holes : Span<const Hole>(),
+                         origin, rule.symmetry_order, aspect_of(scale));
+}
+
+}  // namespace detail
+
 inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
-                                      const Region& region, Span<const Hole> holes) {
+                                      const Region& region, Span<const Hole> holes, const Scale& scale) {
     const bool by_pixels = rule.opening > 1;
     const Result<CentralMoments> whole =
         by_pixels ? central_moments(region.moments) : fine_moments(image, part, region, holes);
     if (!whole) return whole.status();
-    if (rule.pose == PoseRule::region) return PartMoments{*whole, *whole};
+    const auto with_symmetry = [&](const CentralMoments& frame) {
+        return PartMoments{frame, *whole,
+                           detail::symmetry_of(image, rule, part, region, holes, frame.centroid, scale)};
+    };
+    if (rule.pose == PoseRule::region) return with_symmetry(*whole);
     Moments filled = region.moments;
     for (const Hole& hole : holes)
         if (hole.region == region.number) filled.add(hole.moments);
     const Result<CentralMoments> outline =
         by_pixels ? central_moments(filled) : fine_moments(image, part, region, {});
     if (!outline) return outline.status();
-    return PartMoments{*outline, *whole};
+    return with_symmetry(*outline);
 }
 
 constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule) {

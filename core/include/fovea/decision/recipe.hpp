@@ -39,9 +39,10 @@ enum class ThresholdRule : std::uint8_t { fixed, otsu, quantile };
 
 /// How the direction of a part is found.
 enum class OrientationRule : std::uint8_t {
-    full,       ///< axis and the 180-degree decision; a part without a certain one is not judged
-    symmetric,  ///< the axis alone: the part looks the same when turned by half
-    none,       ///< the image's own directions: round parts, or parts that lie in a fixture
+    full,        ///< axis and the 180-degree decision; a part without a certain one is not judged
+    symmetric,   ///< the axis alone: the part looks the same when turned by half
+    rotational,  ///< one of several like directions: a square, a nut, a flange with holes around its middle
+    none,        ///< the image's own directions: round parts, or parts that lie in a fixture
 };
 
 /// What the origin and the axis of a part rest on.
@@ -65,6 +66,7 @@ struct LocateRule {
     OrientationRule orientation = OrientationRule::full;
     Asymmetry
         ends;  ///< of the full rule: the taught part's, which tells its ends apart; zero if none is taught
+    int symmetry_order = 4;  ///< of the rotational rule: in how many directions the part looks the same
 };
 
 enum class FeatureKind : std::uint8_t {

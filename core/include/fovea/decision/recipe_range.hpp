@@ -11,8 +11,17 @@
 #include <fovea/measure/half_turn.hpp>
 #include <fovea/morphology/morphology.hpp>
 #include <fovea/number/fixed.hpp>
+#include <fovea/statistics/polygon_symmetry.hpp>
 
 namespace fovea {
+
+/// True for a rule that asks for the symmetry of a part with its holes in an image that was opened, where the
+/// holes are others than in the image.
+constexpr bool needs_outline(const LocateRule& rule) {
+    return rule.orientation == OrientationRule::rotational && rule.opening > 1 &&
+           rule.pose != PoseRule::outline;
+}
+
 namespace detail {
 
 constexpr bool within(std::int64_t value, std::int64_t low, std::int64_t high) {
@@ -31,8 +40,9 @@ constexpr bool rule_in_range(const LocateRule& rule) {
            rule.orientation <= OrientationRule::none && share(rule.dark_quantile) &&
            share(rule.bright_quantile) && rule.opening >= 1 && rule.opening % 2 == 1 &&
            rule.opening <= max_element_side && rule.area_min >= 0 && rule.area_min <= rule.area_max &&
-           rule.hole_area_min >= 0 && end(rule.ends.sss) && end(rule.ends.sst) && end(rule.ends.stt) &&
-           end(rule.ends.ttt);
+           rule.hole_area_min >= 0 && !needs_outline(rule) &&
+           within(rule.symmetry_order, min_symmetry_order, max_symmetry_order) && end(rule.ends.sss) &&
+           end(rule.ends.sst) && end(rule.ends.stt) && end(rule.ends.ttt);
 }
 
 /// Whether every field is in its range, also those that the kind does not use.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Moments of regions and holes to a fraction of a pixel: from the contour on which brightness crosses the
-// threshold, instead of from whole pixels.
+// Moments and symmetry of regions and holes to a fraction of a pixel: from the contour on which brightness
+// crosses the threshold, instead of from whole pixels.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include <fovea/segment/level_contour.hpp>
 #include <fovea/statistics/moments.hpp>
 #include <fovea/statistics/polygon_moments.hpp>
+#include <fovea/statistics/polygon_symmetry.hpp>
 
 namespace fovea {
 
@@ -34,26 +35,53 @@ inline Result<CentralMoments> fine_moments(ImageView<const Gray8> src, LevelSet 
 /// The same of a hole.
 inline Result<CentralMoments> fine_moments(ImageView<const Gray8> src, LevelSet set, const Hole& hole);
 
+/// The rotational symmetry of what the contour of a region encloses without its listed holes; pass none for
+/// that of its outline.
+///
+/// Shapes    as fine_moments(); origin is the centroid of that, aspect the height of a pixel in widths of one
+/// Rounding  as PolygonSymmetry
+/// Errors    as fine_moments(); degenerate if nothing repeats itself
+/// Source    trace_level_contour() and PolygonSymmetry
+inline Result<RotationalAxis> fine_symmetry(ImageView<const Gray8> src, LevelSet set, const Region& region,
+                                            Span<const Hole> holes, FinePoint origin, int order,
+                                            PixelAspect aspect);
+
 // ---- Implementation ---------------------------------------------------------------
 
 namespace detail {
 
-/// Adds a contour to moments: the points of the walk, joined.
-inline Status add_contour(ImageView<const Gray8> src, LevelSet set, Connectivity connectivity, Point start,
-                          int sign, PolygonMoments& moments) {
+/// Adds a contour to the sums of polygons: the points of the walk, joined.
+template <class Sums>
+Status add_contour(ImageView<const Gray8> src, LevelSet set, Connectivity connectivity, Point start, int sign,
+                   Sums& sums) {
     FinePoint first;
     FinePoint last;
     bool any = false;
     const Status status = trace_level_contour(src, set, connectivity, start, [&](FinePoint point) {
         if (any)
-            moments.add_edge(last, point, sign);
+            sums.add_edge(last, point, sign);
         else
             first = point;
         any = true;
         last = point;
     });
-    if (any) moments.add_edge(last, first, sign);
+    if (any) sums.add_edge(last, first, sign);
     return status;
+}
+
+/// Adds the contour of a region and, the other way round, those of its holes.
+template <class Sums>
+Status add_contours(ImageView<const Gray8> src, LevelSet set, const Region& region, Span<const Hole> holes,
+                    Sums& sums) {
+    if (Status s = add_contour(src, set, Connectivity::eight, region.first, 1, sums); s != Status::ok)
+        return s;
+    for (const Hole& hole : holes) {
+        if (hole.region != region.number) continue;
+        if (Status s = add_contour(src, set.complement(), Connectivity::four, hole.first, -1, sums);
+            s != Status::ok)
+            return s;
+    }
+    return Status::ok;
 }
 
 constexpr Point middle_of(Rectangle box) { return {box.x + box.width / 2, box.y + box.height / 2}; }
@@ -67,16 +95,7 @@ inline Result<CentralMoments> fine_moments(ImageView<const Gray8> src, LevelSet 
                                            Span<const Hole> holes) {
     if (!detail::within_reach(region.box)) return central_moments(region.moments);
     PolygonMoments moments(detail::middle_of(region.box));
-    if (Status s = detail::add_contour(src, set, Connectivity::eight, region.first, 1, moments);
-        s != Status::ok)
-        return s;
-    for (const Hole& hole : holes) {
-        if (hole.region != region.number) continue;
-        if (Status s =
-                detail::add_contour(src, set.complement(), Connectivity::four, hole.first, -1, moments);
-            s != Status::ok)
-            return s;
-    }
+    if (Status s = detail::add_contours(src, set, region, holes, moments); s != Status::ok) return s;
     return moments.central();
 }
 
@@ -87,6 +106,14 @@ inline Result<CentralMoments> fine_moments(ImageView<const Gray8> src, LevelSet 
         s != Status::ok)
         return s;
     return moments.central();
+}
+
+inline Result<RotationalAxis> fine_symmetry(ImageView<const Gray8> src, LevelSet set, const Region& region,
+                                            Span<const Hole> holes, FinePoint origin, int order,
+                                            PixelAspect aspect) {
+    PolygonSymmetry symmetry(origin, order, aspect);
+    if (Status s = detail::add_contours(src, set, region, holes, symmetry); s != Status::ok) return s;
+    return symmetry.axis();
 }
 
 }  // namespace fovea

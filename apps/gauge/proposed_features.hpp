@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+//
+// ProposedFeatures: the list of features that teaching makes, each with the values that it has on the good
+// parts.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fovea/decision/gauge.hpp>
+#include <fovea/decision/recipe.hpp>
+
+#include <gauge/proposed_tolerance.hpp>
+#include <gauge/sample_meter.hpp>
+#include <gauge/samples.hpp>
+
+namespace fovea::apps {
+
+struct TeachOptions {
+    std::string name;
+    std::optional<bool> dark;                  ///< brightness of the part; found out if not given
+    std::optional<std::int64_t> known_length;  ///< of the part along its axis, in nm
+    std::optional<Scale> scale;                ///< in mm; pixels if not given
+    std::optional<std::int64_t> tolerance;     ///< of every length, in millionths of the unit
+};
+
+/// Features that could be measured on every good part. The samples and the options must outlive it.
+class ProposedFeatures {
+public:
+    ProposedFeatures(const Samples& samples, const LocateRule& rule, const Scale& scale,
+                     const TeachOptions& options)
+        : meter_(samples, rule, scale), options_(options) {
+        recipe_.locate = rule;
+        recipe_.scale = scale;
+        detail::copy_name(recipe_.name, options.name);
+        pixel_ = std::max(scale.x_per_pixel, scale.y_per_pixel);
+    }
+
+    /// Begins anew, with a least smoothing.
+    void clear(int least_smoothing) {
+        recipe_.features.clear();
+        notes_.clear();
+        least_smoothing_ = least_smoothing;
+    }
+    /// Finds out how blurred the edges of the features are, for the smoothing of those to come. False if
+    /// there are none.
+    bool learn_blur() {
+        blur_ = meter_.blur_of(recipe_.features);
+        return blur_.raw() > 0;
+    }
+    /// Keeps features whatever the samples differ by: they do while their scale is not known.
+    void keep_all() { keep_all_ = true; }
+
+    const Recipe& recipe() const { return recipe_; }
+    const SampleMeter& meter() const { return meter_; }
+    const std::vector<std::string>& notes() const { return notes_; }
+    void note(const std::string& text) { notes_.push_back(text); }
+    /// The longer side of a pixel.
+    std::int64_t pixel() const { return pixel_; }
+
+    /// The largest power of two up to one and a half times the blur, and to an eighth of the length: the
+    /// noise falls with it, but edges must not reach into each other.
+    int smoothing_for(const Feature& feature) const {
+        const std::int64_t length = length_in(feature);
+        int smoothing = least_smoothing_;
+        while (smoothing < 8 &&
+               blur_.raw() * 9 / 4 > SquarePixels::from_int(4 * smoothing * smoothing).raw() &&
+               length > 16 * smoothing * pixel_)
+            smoothing *= 2;
+        return smoothing;
+    }
+
+    bool has(const std::string& name) const {
+        for (const Feature& feature : recipe_.features)
+            if (detail::text_of(feature.name) == name) return true;
+        return false;
+    }
+
+    /// In how many ways a part may lie that the rule cannot tell apart; for no direction at all, some that
+    /// share none with those of a part that repeats itself.
+    int turns() const {
+        switch (recipe_.locate.orientation) {
+            case OrientationRule::full: break;
+            case OrientationRule::symmetric: return 2;
+            case OrientationRule::rotational: return recipe_.locate.symmetry_order;
+            case OrientationRule::none: return 11;
+        }
+        return 1;
+    }
+    /// The values of a feature on every sample, measured in every way in which it may lie; empty if one has
+    /// none, or, for a part without direction, where a value depends on how it lies.
+    std::vector<std::int64_t> values_of(const Feature& feature) const {
+        std::vector<std::int64_t> values;
+        std::vector<std::int64_t> first;
+        for (int i = 0; i < turns(); ++i) {
+            const std::int64_t turn = (std::int64_t{1} << 32) * i / turns();
+            const std::vector<std::int64_t> turned =
+                meter_.values_of(feature, FineAngle::from_raw(static_cast<std::uint32_t>(turn)));
+            if (turned.empty()) return {};
+            if (i == 0) first = turned;
+            if (recipe_.locate.orientation == OrientationRule::none)
+                for (std::size_t k = 0; k < turned.size(); ++k)
+                    if (std::abs(turned[k] - first[k]) > pixel_ / 2) return {};
+            values.insert(values.end(), turned.begin(), turned.end());
+        }
+        return values;
+    }
+
+    /// Adds a feature with its nominal value and tolerances, unless a sample refuses it.
+    bool add(Feature feature, const std::string& name) {
+        detail::copy_name(feature.name, name);
+        feature.smoothing = smoothing_for(feature);
+        const std::vector<std::int64_t> values = values_of(feature);
+        if (values.empty()) return false;
+        const Spread spread = spread_of(values);
+        feature.tolerance = proposed_tolerance(feature, recipe_.scale, spread, options_.tolerance);
+        const std::string note = spread_note(feature, recipe_.scale, spread, options_.tolerance);
+        if (!note.empty()) notes_.push_back(note);
+        if (!keep_all_ && too_wide(feature, spread)) return false;
+        return recipe_.features.push(feature) == Status::ok;
+    }
+
+private:
+    /// The length between the edges of a feature, as far as it is known before it is measured.
+    std::int64_t length_in(const Feature& feature) const {
+        switch (feature.kind) {
+            case FeatureKind::distance:
+            case FeatureKind::width: return length_of(feature.to - feature.from) - 12 * pixel_;
+            case FeatureKind::diameter: return 2 * feature.radius;
+            case FeatureKind::hole_diameter: return 2 * feature.search;
+            case FeatureKind::angle: return 4 * feature.search;
+            case FeatureKind::hole_count:
+            case FeatureKind::position: break;
+        }
+        return 0;
+    }
+
+    SampleMeter meter_;
+    const TeachOptions& options_;
+    Recipe recipe_;
+    std::int64_t pixel_ = 0;
+    SquarePixels blur_;  ///< of the edges, once it is known
+    int least_smoothing_ = 1;
+    bool keep_all_ = false;
+    std::vector<std::string> notes_;
+};
+
+}  // namespace fovea::apps
