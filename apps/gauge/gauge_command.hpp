@@ -79,7 +79,9 @@ void complain_unmeasured(Io& io, const std::string& job, const RecipeFile& file,
             part_name + ": " + orientation_problem(orientation) +
             (orientation == Status::undecided
                  ? "; it may be dirty, turned over or another part, or orientation = \"symmetric\" suits it"
-                 : "; orientation = \"none\" measures it as it lies"));
+             : file.recipe.locate.orientation == OrientationRule::rotational
+                 ? "; it may be dirty or another part, or symmetry_order is another"
+                 : "; orientation = \"none\" measures it as it lies, \"rotational\" by its symmetry"));
         return;
     }
     for (int i = 0; i < part.feature_count; ++i) {

@@ -73,6 +73,8 @@ public:
         return smoothing;
     }
 
+    /// How many more a recipe can hold.
+    int room() const { return Recipe::max_features - recipe_.features.size(); }
     bool has(const std::string& name) const {
         for (const Feature& feature : recipe_.features)
             if (detail::text_of(feature.name) == name) return true;
@@ -91,7 +93,7 @@ public:
         return 1;
     }
     /// The values of a feature on every sample, measured in every way in which it may lie; empty if one has
-    /// none, or, for a part without direction, where a value depends on how it lies.
+    /// none, or if there are many ways and a value depends on them.
     std::vector<std::int64_t> values_of(const Feature& feature) const {
         std::vector<std::int64_t> values;
         std::vector<std::int64_t> first;
@@ -101,9 +103,10 @@ public:
                 meter_.values_of(feature, FineAngle::from_raw(static_cast<std::uint32_t>(turn)));
             if (turned.empty()) return {};
             if (i == 0) first = turned;
-            if (recipe_.locate.orientation == OrientationRule::none)
-                for (std::size_t k = 0; k < turned.size(); ++k)
-                    if (std::abs(turned[k] - first[k]) > pixel_ / 2) return {};
+            // More than noise: it is no symmetry of this feature.
+            const std::int64_t most = feature.kind == FeatureKind::angle ? 1000000 : pixel_ / 2;
+            for (std::size_t k = 0; turns() > 2 && !keep_all_ && k < turned.size(); ++k)
+                if (std::abs(turned[k] - first[k]) > most) return {};
             values.insert(values.end(), turned.begin(), turned.end());
         }
         return values;

@@ -76,6 +76,33 @@ private:
         propose_holes();
     }
 
+    /// True if a part lies in one of several ways that are not told apart.
+    bool repeats() const { return rule_.orientation == OrientationRule::rotational; }
+
+    /// Adds a probe, and of a part that repeats itself the like ones: any of them may meet the bad place.
+    bool add_turned(const Feature& feature, const std::string& name) {
+        if (!features_.add(feature, name)) return false;
+        const int order = repeats() ? rule_.symmetry_order : 1;
+        // Half a turn is the same probe, the other way round.
+        const int places = order % 2 == 0 ? order / 2 : order;
+        for (int i = 1; i < places; ++i) {
+            const std::int64_t turn = (std::int64_t{1} << 32) * i / order;
+            const UnitVector way = unit_vector(FineAngle::from_raw(static_cast<std::uint32_t>(turn)));
+            const auto place = [&](PartPoint p) {
+                return PartPoint{multiply_divide(p.x, way.x.raw(), Unit::one) -
+                                     multiply_divide(p.y, way.y.raw(), Unit::one),
+                                 multiply_divide(p.x, way.y.raw(), Unit::one) +
+                                     multiply_divide(p.y, way.x.raw(), Unit::one)};
+            };
+            Feature like = feature;
+            like.from = place(feature.from);
+            like.to = place(feature.to);
+            if (!features_.add(like, name + "_" + std::to_string(i + 1)))
+                features_.note(name + " is measured at some of its like places alone");
+        }
+        return true;
+    }
+
     bool propose_round() {
         const Result<CircleFit> fit = circle_of(outline_, scale_);
         // Round: the contour stays within a fiftieth of the radius, two pixels at most.
@@ -129,8 +156,8 @@ private:
     /// that of the whole part, up to three others that differ are widths. Of a part that repeats itself all
     /// are: any of them may be the bad one.
     void propose_parallel() {
-        const bool repeats = rule_.orientation == OrientationRule::rotational;
-        const int most_widths = repeats ? rule_.symmetry_order : 3;
+        const bool repeats = this->repeats();
+        const int most_widths = repeats ? Recipe::max_features : 3;
         struct Found {
             Feature feature;
             std::int64_t value;
@@ -219,7 +246,7 @@ private:
             narrow.lines = 1;
             const std::vector<std::int64_t> at_middle = meter().values_of(narrow);
             if (!at_middle.empty() && std::abs(at_middle.front() - value) > pixel_ / 8) feature.lines = 3;
-            if (is_whole(feature, value) && features_.add(feature, "length")) return;
+            if (is_whole(feature, value) && add_turned(feature, "length")) return;
         }
         features_.note(
             "no length: no probe along the axis meets both ends of every part; it needs straight ends "
@@ -237,16 +264,16 @@ private:
                 return std::abs(other - values[0]) < std::max(other, values[0]) / 20;
             });
             if (known || *slope_of(feature) > pixel_ / 4) continue;
-            if (features_.add(feature, "width_" + std::to_string(taken.size() + 1)))
-                taken.push_back(values[0]);
+            if (add_turned(feature, "width_" + std::to_string(taken.size() + 1))) taken.push_back(values[0]);
         }
     }
 
-    /// The first two corners between long straight edges.
+    /// The first two corners between long straight edges, or all of a part that repeats itself.
     void propose_angles() {
+        const int most = repeats() ? rule_.symmetry_order : 2;
         const std::vector<Stretch>& edges = edges_;
         int count = 0;
-        for (std::size_t i = 0; i < edges.size() && count < 2; ++i) {
+        for (std::size_t i = 0; i < edges.size() && count < most; ++i) {
             const Stretch& one = edges[i];
             const Stretch& two = edges[(i + 1) % edges.size()];
             const std::int32_t corner = (two.direction() - one.direction()).signed_raw();
@@ -297,8 +324,16 @@ private:
         std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
             return 4 * a.feature.centre.x + a.feature.centre.y < 4 * b.feature.centre.x + b.feature.centre.y;
         });
-        for (std::size_t i = 0; i < std::min<std::size_t>(found.size(), 6); ++i)
+        // All of a part that repeats itself, as far as a recipe holds them: any may be the bad one.
+        const std::size_t limit = repeats() ? found.size() : std::min<std::size_t>(found.size(), 6);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (i == limit || features_.room() < 2) {
+                features_.note(std::to_string(found.size() - i) + " of " + std::to_string(found.size()) +
+                               " holes are not measured one by one");
+                break;
+            }
             propose_hole(found[i].feature, found[i].round, "hole_" + std::to_string(i + 1));
+        }
     }
     /// By what a part is turned when it looks the same in its outline.
     std::string turn_text() const {

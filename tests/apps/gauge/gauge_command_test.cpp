@@ -307,7 +307,8 @@ TEST_F(GaugeCommand, SaysOnceThatThePartHasNoDirectionAndWhatToDo) {
     io.put("disc.pgm", pgm_of(picture_of({160, 120}, {{shapes::disc(40), 80, 60}}, {}, 5)));
     EXPECT_EQ(run({"--job", "r.toml", "disc.pgm"}), apps::exit_failed);
     EXPECT_EQ(io.errors(),
-              "disc.pgm part 0: the part has no clear axis; orientation = \"none\" measures it as it lies\n");
+              "disc.pgm part 0: the part has no clear axis; orientation = \"none\" measures it as it lies, "
+              "\"rotational\" by its symmetry\n");
 }
 
 // ---- Several parts and pictures ----------------------------------------------------------------

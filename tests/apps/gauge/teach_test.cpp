@@ -258,7 +258,8 @@ TEST(Teach, MeasuresASquareHoweverItLies) {
     const Recipe recipe = recipe_of(taught_from({good}));
     EXPECT_EQ(recipe.locate.orientation, OrientationRule::rotational);
     EXPECT_EQ(recipe.locate.symmetry_order, 4);
-    EXPECT_EQ(feature_names(recipe), (Names{"length", "width_1", "angle_1", "angle_2", "holes"}));
+    EXPECT_EQ(feature_names(recipe),
+              (Names{"length", "width_1", "angle_1", "angle_2", "angle_3", "angle_4", "holes"}));
     EXPECT_NEAR(nominal_of(recipe, "length"), 120, 0.05);
     EXPECT_EQ(verdicts_of(good, recipe), "ok");
     accepts_in_twenty_poses(recipe, rectangle(120, 120), 180, 429);
@@ -268,7 +269,31 @@ TEST(Teach, MeasuresASquareHoweverItLies) {
             << turn;
     EXPECT_EQ(verdicts_of(lying(disc(67.7), 0, 430), recipe),
               "unmeasured length:unmeasured width_1:unmeasured "
-              "angle_1:unmeasured angle_2:unmeasured holes:unmeasured");
+              "angle_1:unmeasured angle_2:unmeasured angle_3:unmeasured angle_4:unmeasured holes:unmeasured");
+}
+
+TEST(Teach, GivesNoLengthToWhatIsNearlySquare) {
+    const Taught taught = taught_from({lying(rectangle(120, 122), 7, 443)});
+    EXPECT_EQ(taught.recipe.locate.orientation, OrientationRule::rotational);
+    EXPECT_EQ(feature_named(taught.recipe, "length"), nullptr);
+    EXPECT_EQ(feature_named(taught.recipe, "width_1"), nullptr);
+    EXPECT_FALSE(taught.notes.empty());
+}
+
+TEST(Teach, MeasuresEveryArmOfACrossAndEverySideOfAPentagon) {
+    const Shape bar = rectangle(160, 40);
+    const Shape upright = rectangle(40, 160);
+    const Shape cross = with(bar, upright, 0, 0);
+    const Recipe of_cross = taught_from({lying(cross, 7, 444)}).recipe;
+    EXPECT_EQ(verdicts_of(lying(cross, 40, 445), of_cross), "ok");
+    const Shape thin = [=](double s, double t) { return cross(s, t) && !(s > 22 && std::abs(t) > 18); };
+    const Recipe of_pentagon = taught_from({lying(polygon(5, 70), 7, 446)}).recipe;
+    EXPECT_EQ(verdicts_of(lying(polygon(5, 70), 40, 447), of_pentagon), "ok");
+    const Shape cut = [](double s, double t) { return polygon(5, 70)(s, t) && s < 67; };
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_EQ(verdicts_of(lying(thin, 45.0 * i, 448), of_cross).compare(0, 6, "not_ok"), 0) << i;
+        EXPECT_EQ(verdicts_of(lying(cut, 45.0 * i, 449), of_pentagon).compare(0, 6, "not_ok"), 0) << i;
+    }
 }
 
 TEST(Teach, MeasuresEveryPairOfFlatsOfANutHoweverItLies) {
@@ -296,7 +321,18 @@ TEST(Teach, MeasuresTheHolesOfAFlangeHoweverItLies) {
     EXPECT_EQ(recipe.locate.symmetry_order, 6);
     for (const char* name : {"diameter", "hole_1", "hole_6", "hole_1_position", "hole_6_position"})
         EXPECT_NE(feature_named(recipe, name), nullptr) << name;
+    EXPECT_EQ(feature_named(recipe, "hole_7"), nullptr);
     accepts_in_twenty_poses(recipe, flange(6), 180, 440);
+    // A hole that is too large, or out of its place, whichever it is and however the part lies.
+    for (int i = 0; i < 6; ++i) {
+        const double x = 55 * std::cos(i * pi / 3);
+        const double y = 55 * std::sin(i * pi / 3);
+        EXPECT_EQ(verdicts_of(lying(without(flange(6), disc(10), x, y), 40.0 * i, 442), recipe)
+                      .compare(0, 6, "not_ok"),
+                  0);
+        const Shape moved = without(with(flange(6), disc(12), x, y), disc(9), x * 57.5 / 55, y * 57.5 / 55);
+        EXPECT_EQ(verdicts_of(lying(moved, 40.0 * i, 442), recipe).compare(0, 6, "not_ok"), 0);
+    }
     const Shape lacking = with(flange(6), disc(12), 55, 0);
     EXPECT_EQ(verdicts_of(lying(lacking, 100, 441), recipe).compare(0, 16, "not_ok holes:low"), 0);
 }

@@ -63,9 +63,9 @@ struct Threshold {
 };
 
 /// The moments of a part that find_parts() found: from its contour, or from its pixels where the rule opened
-/// the image first and the contour in the image is another. Symmetry is always that of the contour: what the
-/// opening clears weighs little in it, but its holes are then others, so that an opened part needs
-/// PoseRule::outline for it.
+/// the image first and the contour in the image is another. Symmetry is always that of the contour: an opened
+/// part needs PoseRule::outline for it, because its holes are others there, and has none (degenerate) if the
+/// contour encloses a twentieth more or less than the part.
 ///
 /// Errors  as fine_moments()
 inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const LocateRule& rule, LevelSet part,
@@ -173,6 +173,13 @@ inline Result<RotationalAxis> symmetry_of(ImageView<const Gray8> image, const Lo
     if (!image.contains(traced.first)) return Status::out_of_range;
     // In an image that was opened the region began lower.
     while (traced.first.y > 0 && part.contains(image(traced.first.x, traced.first.y - 1))) --traced.first.y;
+    // The contour must be that of the part, and not go around others that the opening cut off.
+    if (rule.opening > 1) {
+        const Result<CentralMoments> whole = fine_moments(image, part, traced, {});
+        if (!whole) return whole.status();
+        const std::int64_t filled = region.moments.area() + region.hole_area;
+        if (whole->area * 20 > filled * 21 || whole->area * 21 < filled * 20) return Status::degenerate;
+    }
     return fine_symmetry(image, part, traced, rule.pose == PoseRule::region ? holes : Span<const Hole>(),
                          origin, rule.symmetry_order, aspect_of(scale));
 }
