@@ -73,24 +73,39 @@ public:
         return smoothing;
     }
 
-    /// How many more a recipe can hold.
-    int room() const { return Recipe::max_features - recipe_.features.size(); }
+    /// True if a recipe can hold so many more; else notes that there is more to measure, once.
+    bool room_for(int count) {
+        if (count <= Recipe::max_features - recipe_.features.size()) return true;
+        const std::string full =
+            "a recipe holds " + std::to_string(Recipe::max_features) + " features: there is more to measure";
+        if (std::find(notes_.begin(), notes_.end(), full) == notes_.end()) note(full);
+        return false;
+    }
     bool has(const std::string& name) const {
         for (const Feature& feature : recipe_.features)
             if (detail::text_of(feature.name) == name) return true;
         return false;
     }
 
-    /// In how many ways a part may lie that the rule cannot tell apart; for no direction at all, some that
-    /// share none with those of a part that repeats itself.
+    /// In how many ways a part may lie that the rule cannot tell apart; for no direction at all, some of
+    /// them.
     int turns() const {
         switch (recipe_.locate.orientation) {
             case OrientationRule::full: break;
             case OrientationRule::symmetric: return 2;
             case OrientationRule::rotational: return recipe_.locate.symmetry_order;
-            case OrientationRule::none: return 11;
+            case OrientationRule::none: return 13;
         }
         return 1;
+    }
+    /// The turn from the first of these ways to another. Without direction they are golden sections of a
+    /// turn, which no part that repeats itself has in common.
+    FineAngle turn(int way) const {
+        const std::int64_t whole = std::int64_t{1} << 32;
+        const std::int64_t part = recipe_.locate.orientation == OrientationRule::none
+                                      ? way * std::int64_t{0x9e3779b9}
+                                      : whole * way / turns();
+        return FineAngle::from_raw(static_cast<std::uint32_t>(part % whole));
     }
     /// The values of a feature on every sample, measured in every way in which it may lie; empty if one has
     /// none, or if there are many ways and a value depends on them.
@@ -98,9 +113,7 @@ public:
         std::vector<std::int64_t> values;
         std::vector<std::int64_t> first;
         for (int i = 0; i < turns(); ++i) {
-            const std::int64_t turn = (std::int64_t{1} << 32) * i / turns();
-            const std::vector<std::int64_t> turned =
-                meter_.values_of(feature, FineAngle::from_raw(static_cast<std::uint32_t>(turn)));
+            const std::vector<std::int64_t> turned = meter_.values_of(feature, turn(i));
             if (turned.empty()) return {};
             if (i == 0) first = turned;
             // More than noise: it is no symmetry of this feature.
@@ -123,7 +136,7 @@ public:
         const std::string note = spread_note(feature, recipe_.scale, spread, options_.tolerance);
         if (!note.empty()) notes_.push_back(note);
         if (!keep_all_ && too_wide(feature, spread)) return false;
-        return recipe_.features.push(feature) == Status::ok;
+        return room_for(1) && recipe_.features.push(feature) == Status::ok;
     }
 
 private:

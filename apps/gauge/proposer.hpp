@@ -11,6 +11,8 @@
 
 #include <fovea/decision/gauge.hpp>
 #include <fovea/decision/recipe.hpp>
+#include <fovea/number/int128.hpp>
+#include <fovea/number/trigonometry.hpp>
 
 #include <gauge/outline.hpp>
 #include <gauge/proposed_features.hpp>
@@ -79,15 +81,22 @@ private:
     /// True if a part lies in one of several ways that are not told apart.
     bool repeats() const { return rule_.orientation == OrientationRule::rotational; }
 
+    /// True if a probe runs through the origin: turned by half it is the same, the other way round.
+    bool is_central(const Feature& feature) const {
+        const PartPoint way = feature.to - feature.from;
+        const Int128 twice_area =
+            Int128::product(feature.from.x, way.y) - Int128::product(feature.from.y, way.x);
+        const std::int64_t off = round_divide(twice_area, Int128(std::max<std::int64_t>(length_of(way), 1)));
+        return std::abs(off) <= pixel_ / 2;
+    }
     /// Adds a probe, and of a part that repeats itself the like ones: any of them may meet the bad place.
+    /// Leaves room for the count of holes.
     bool add_turned(const Feature& feature, const std::string& name) {
-        if (!features_.add(feature, name)) return false;
         const int order = repeats() ? rule_.symmetry_order : 1;
-        // Half a turn is the same probe, the other way round.
-        const int places = order % 2 == 0 ? order / 2 : order;
+        const int places = order % 2 == 0 && is_central(feature) ? order / 2 : order;
+        if (!features_.room_for(places + 1) || !features_.add(feature, name)) return false;
         for (int i = 1; i < places; ++i) {
-            const std::int64_t turn = (std::int64_t{1} << 32) * i / order;
-            const UnitVector way = unit_vector(FineAngle::from_raw(static_cast<std::uint32_t>(turn)));
+            const UnitVector way = unit_vector(features_.turn(i));
             const auto place = [&](PartPoint p) {
                 return PartPoint{multiply_divide(p.x, way.x.raw(), Unit::one) -
                                      multiply_divide(p.y, way.y.raw(), Unit::one),
@@ -156,8 +165,7 @@ private:
     /// that of the whole part, up to three others that differ are widths. Of a part that repeats itself all
     /// are: any of them may be the bad one.
     void propose_parallel() {
-        const bool repeats = this->repeats();
-        const int most_widths = repeats ? Recipe::max_features : 3;
+        const int most_widths = repeats() ? Recipe::max_features : 3;
         struct Found {
             Feature feature;
             std::int64_t value;
@@ -175,21 +183,29 @@ private:
             return angle_of(std::abs(way.x), std::abs(way.y)).raw();
         };
         std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
-            return repeats ? off_axis(a) < off_axis(b) : a.value > b.value;
+            return repeats() ? off_axis(a) < off_axis(b) : a.value > b.value;
         });
         int widths = 0;
         std::int64_t last = 0;
+        bool alike = true;
         for (const Found& each : found) {
+            if (repeats() && !features_.room_for(2)) break;
             const PartPoint way = each.feature.to - each.feature.from;
             const bool along = std::abs(way.x) >= std::abs(way.y);
             if (along && !features_.has("length") && is_whole(each.feature, each.value)) {
-                features_.add(each.feature, "length");
+                alike = features_.add(each.feature, "length") && alike;
             } else if (widths < most_widths &&
-                       (widths == 0 || repeats || last - each.value > std::max(each.value / 50, pixel_))) {
-                if (features_.add(each.feature, "width_" + std::to_string(widths + 1))) ++widths;
+                       (widths == 0 || repeats() || last - each.value > std::max(each.value / 50, pixel_))) {
+                const bool added = features_.add(each.feature, "width_" + std::to_string(widths + 1));
+                if (added) ++widths;
+                alike = added && alike;
                 last = each.value;
             }
         }
+        if (repeats() && !alike)
+            features_.note(
+                "some distances between parallel edges are left out: they are not the same in all the "
+                "directions that are not told apart");
     }
 
     /// A probe across the part at a share of its extent, along its axis or across it.
@@ -270,7 +286,7 @@ private:
 
     /// The first two corners between long straight edges, or all of a part that repeats itself.
     void propose_angles() {
-        const int most = repeats() ? rule_.symmetry_order : 2;
+        const int most = repeats() ? Recipe::max_features : 2;
         const std::vector<Stretch>& edges = edges_;
         int count = 0;
         for (std::size_t i = 0; i < edges.size() && count < most; ++i) {
@@ -279,6 +295,7 @@ private:
             const std::int32_t corner = (two.direction() - one.direction()).signed_raw();
             // Between 15 and 165 degrees.
             if (magnitude(corner) < 0x0aaaaaaau || magnitude(corner) > 0x75555555u) continue;
+            if (repeats() && !features_.room_for(2)) break;
             Feature feature;
             feature.kind = FeatureKind::angle;
             feature.from = one.from;
@@ -327,7 +344,7 @@ private:
         // All of a part that repeats itself, as far as a recipe holds them: any may be the bad one.
         const std::size_t limit = repeats() ? found.size() : std::min<std::size_t>(found.size(), 6);
         for (std::size_t i = 0; i < found.size(); ++i) {
-            if (i == limit || features_.room() < 2) {
+            if (i == limit || !features_.room_for(2)) {
                 features_.note(std::to_string(found.size() - i) + " of " + std::to_string(found.size()) +
                                " holes are not measured one by one");
                 break;

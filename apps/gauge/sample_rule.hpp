@@ -9,6 +9,10 @@
 
 #include <fovea/decision/locate.hpp>
 #include <fovea/decision/recipe.hpp>
+#include <fovea/measure/half_turn.hpp>
+#include <fovea/number/integer.hpp>
+#include <fovea/statistics/moments.hpp>
+#include <fovea/statistics/polygon_symmetry.hpp>
 
 #include <gauge/samples.hpp>
 
@@ -71,6 +75,7 @@ inline void use_symmetry(const Samples& samples, const Scale& scale, LocateRule&
             if (order % std::max(best, 1) != 0 && strengths[order] * 2 > strengths[best]) stands_out = false;
         rule.symmetry_order = best;
         if (stands_out) return;
+        if (by_holes == PoseRule::region) break;
     }
     rule.orientation = OrientationRule::none;
     rule.pose = by_holes;

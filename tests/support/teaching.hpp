@@ -93,4 +93,24 @@ inline std::vector<std::string> feature_names(const Recipe& recipe) {
     return names;
 }
 
+/// A recipe that must be there.
+inline Recipe recipe_of(const apps::Taught& taught) {
+    EXPECT_EQ(taught.problem, "");
+    EXPECT_EQ(taught.notes, std::vector<std::string>());
+    return taught.recipe;
+}
+
+/// Renders the part twenty times, turned up to so far to each side, and expects that it is always OK.
+inline void accepts_in_twenty_poses(const Recipe& recipe, const Shape& shape, double most_degrees,
+                                    std::uint64_t seed, const Scene& light = back_light(),
+                                    double stretch_y = 1) {
+    Random random(seed);
+    for (int i = 0; i < 20; ++i) {
+        const Lying part{shape, 125 + uniform(random, -6, 6), 125 + uniform(random, -6, 6),
+                         uniform(random, -most_degrees, most_degrees), stretch_y};
+        EXPECT_EQ(verdicts_of(picture_of(one_part_size, {part}, light, random.next()), recipe), "ok")
+            << "seed " << seed << ", pose " << i << ": " << part.x << ", " << part.y << ", " << part.degrees;
+    }
+}
+
 }  // namespace fovea::test

@@ -21,11 +21,6 @@ using apps::write_recipe;
 const std::string width =
     "[[feature]]\nname = \"w\"\nkind = \"width\"\nfrom = [-9, 0]\nto = [9, 0]\n"
     "nominal = 12\nminus = 0.1\nplus = 0.2\n";
-const std::string count =
-    "[[feature]]\nname = \"n\"\nkind = \"hole_count\"\nnominal = 2\nminus = 0\nplus = 0\n";
-/// A recipe with a line of [locate] or [scale] at 3:1, and a feature.
-std::string in_locate(const std::string& line) { return "format = 1\n[locate]\n" + line + "\n" + count; }
-std::string in_scale(const std::string& line) { return "format = 1\n[scale]\n" + line + "\n" + count; }
 /// A recipe whose width has one more line, at 10:1.
 std::string in_width(const std::string& line) { return "format = 1\n" + width + line + "\n"; }
 
@@ -166,7 +161,7 @@ TEST(RecipeMistakes, OfKeys) {
     EXPECT_EQ(problem_of(in_locate("level = 3\nlevel = 4")), "4:1: level stands twice");
     EXPECT_EQ(problem_of(in_width("plus = 0.3")), "10:1: plus stands twice");
     // The same key in two features is none twice.
-    EXPECT_EQ(problem_of("format = 1\n" + width + count), "");
+    EXPECT_EQ(problem_of("format = 1\n" + width + a_count), "");
 }
 
 TEST(RecipeMistakes, OfKeysInAnotherTable) {
@@ -267,7 +262,7 @@ TEST(RecipeMistakes, OfNames) {
     EXPECT_EQ(named("a\\tb"), wrong + "a\\tb\"");
     EXPECT_EQ(named("a\tb"), wrong + "a?b\"");
     EXPECT_EQ(named("a\\\\b \\\"c\\\""), "");
-    EXPECT_EQ(problem_of("format = 1\n" + width + count + width), "17:1: two features are called \"w\"");
+    EXPECT_EQ(problem_of("format = 1\n" + width + a_count + width), "17:1: two features are called \"w\"");
 }
 
 TEST(RecipeMistakes, OfWhatAFeatureLacks) {
@@ -291,7 +286,7 @@ TEST(RecipeMistakes, OfKeysOfAnotherKind) {
               "10:1: radius has no meaning for a feature of the kind \"width\", which has name, kind, from, "
               "to, lines, "
               "smoothing, contrast_min, nominal, minus and plus");
-    EXPECT_EQ(problem_of("format = 1\n" + count + "probes = 9\n"),
+    EXPECT_EQ(problem_of("format = 1\n" + a_count + "probes = 9\n"),
               "8:1: probes has no meaning for a feature of the kind \"hole_count\", which has name, kind, "
               "nominal, minus and "
               "plus");
@@ -318,62 +313,12 @@ TEST(RecipeMistakes, OfTheNumbersOfEdges) {
 TEST(RecipeMistakes, OfTooManyFeatures) {
     std::string text = "format = 1\n";
     for (int i = 0; i < Recipe::max_features; ++i) {
-        std::string feature = count;
+        std::string feature = a_count;
         feature.replace(feature.find("\"n\""), 3, "\"n" + std::to_string(i) + "\"");
         text += feature;
     }
     EXPECT_EQ(problem_of(text), "");
     EXPECT_EQ(problem_of(text + "[[feature]]\n"), "146:3: more than 24 features");
-}
-
-TEST(RecipeMistakes, OfKeysThatContradictEachOther) {
-    EXPECT_EQ(problem_of(in_locate("area_min = 10\narea_max = 9")), "4:1: area_min is above area_max");
-    EXPECT_EQ(problem_of(in_locate("area_max = 9\narea_min = 10")), "4:1: area_min is above area_max");
-    EXPECT_EQ(problem_of(in_locate("area_max = 9")), "3:1: area_min is above area_max");
-    EXPECT_EQ(problem_of(in_locate("area_min = 10\narea_max = 10")), "");
-    EXPECT_EQ(problem_of(in_locate("opening = 4")),
-              "3:1: opening: expected an odd number, so that it has a middle");
-    EXPECT_EQ(problem_of(in_scale("per_pixel_x = 0.1\nper_pixel_y = 0.400001")),
-              "4:1: per_pixel_x and per_pixel_y differ by more than four times");
-    EXPECT_EQ(problem_of(in_scale("per_pixel_x = 0.400001\nper_pixel_y = 0.1")),
-              "4:1: per_pixel_x and per_pixel_y differ by more than four times");
-    EXPECT_EQ(problem_of(in_scale("per_pixel_x = 0.1\nper_pixel_y = 0.4")), "");
-}
-
-TEST(RecipeMistakes, OfAScaleThatIsHalfGiven) {
-    // A length in mm of a pixel that nobody gave would be 1 mm, silently.
-    EXPECT_EQ(problem_of(in_scale("unit = \"mm\"")),
-              "3:1: [scale] lacks per_pixel_x: how long a pixel is in mm");
-    EXPECT_EQ(problem_of(in_scale("unit = \"mm\"\nper_pixel_x = 0.1")),
-              "4:1: [scale] lacks per_pixel_y: how long a pixel is in mm");
-    EXPECT_EQ(problem_of(in_scale("per_pixel_y = 1.5")),
-              "3:1: [scale] lacks per_pixel_x: how long a pixel is in px");
-    EXPECT_EQ(problem_of(in_scale("unit = \"px\"")), "");
-}
-
-TEST(RecipeMistakes, OfSymmetry) {
-    EXPECT_EQ(problem_of(in_locate("orientation = \"rotational\"\nsymmetry_order = 6")), "");
-    EXPECT_EQ(problem_of(in_locate("orientation = \"rotational\"")),
-              "3:1: [locate] lacks symmetry_order: in how many directions the part looks the same");
-    EXPECT_EQ(problem_of(in_locate("symmetry_order = 6")),
-              "3:1: symmetry_order has no meaning without orientation = \"rotational\"");
-    EXPECT_EQ(problem_of(in_locate("orientation = \"rotational\"\nsymmetry_order = 2")),
-              "4:18: symmetry_order: expected a whole number from 3 to 12, not 2");
-    const std::string opened = "orientation = \"rotational\"\nsymmetry_order = 6\nopening = 3\n";
-    EXPECT_EQ(problem_of(in_locate(opened)),
-              "5:1: orientation = \"rotational\" with an opening needs pose = \"outline\"");
-    EXPECT_EQ(problem_of(in_locate(opened + "pose = \"outline\"")), "");
-}
-
-TEST(RecipeMistakes, OfKeysWithoutMeaningBesideTheThreshold) {
-    EXPECT_EQ(problem_of(in_locate("level = 90")), "3:1: level has no meaning without threshold = \"fixed\"");
-    EXPECT_EQ(problem_of(in_locate("threshold = \"fixed\"\ndark_quantile = 0.1")),
-              "4:1: dark_quantile has no meaning without threshold = \"quantile\"");
-    EXPECT_EQ(problem_of(in_locate("bright_quantile = 0.9")),
-              "3:1: bright_quantile has no meaning without threshold = \"quantile\"");
-    // The ends may stay when the orientation is changed.
-    EXPECT_EQ(problem_of(in_locate("orientation = \"symmetric\"\nends = [0.1, 0, 0, 0]")), "");
-    EXPECT_EQ(problem_of(in_locate("ends = [0, 0, 0, 0]")), "");
 }
 
 TEST(RecipeMistakes, AreToldOnOneLineWithinTheFileWhateverIsDamaged) {

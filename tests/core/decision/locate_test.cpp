@@ -236,6 +236,27 @@ TEST(PoseOf, TurnsWithASquareWhenItsSymmetryIsTold) {
     EXPECT_EQ(pose_in(turned(disc, 0, random).view(), rule).orientation, Status::degenerate);
 }
 
+TEST(PoseOf, HasNoSymmetryWhereTheContourGoesAroundTwoPartsThatAnOpeningCutApart) {
+    Random random(667);
+    const auto pair = [](double s, double t) {
+        const bool square = std::abs(std::abs(s) - 20) < 11 && std::abs(t) < 11;
+        return square || (std::abs(s) < 20 && std::abs(t) < 1);
+    };
+    LocateRule rule;
+    rule.orientation = OrientationRule::rotational;
+    rule.opening = 5;
+    rule.pose = PoseRule::outline;
+    const GuardedImage<Gray8> image = turned(pair, 0.5, random);
+    const Found found = find(image.view(), rule);
+    ASSERT_EQ(found.parts.size(), 2);
+    for (const Region& region : found.parts) {
+        const Result<PartMoments> moments =
+            moments_of(image.view(), rule, found.threshold.part, region, found.holes.span(), Scale());
+        ASSERT_TRUE(moments.ok());
+        EXPECT_EQ(pose_of(*moments, rule, Scale()).orientation, Status::degenerate);
+    }
+}
+
 TEST(PoseOf, TurnsWithTheHolesOfAFlange) {
     Random random(666);
     const auto flange = [](double s, double t) {
