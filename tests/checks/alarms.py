@@ -59,7 +59,7 @@ TREE = {
     "hal/include/fovea/hal/h.hpp": HEAD + "#include <fovea/image/b.hpp>\n",
     "ports/linux/include/fovea/linux/p.hpp": HEAD + "#include <vector>\n\n#include <fovea/hal/h.hpp>\n",
     "apps/fovea/main.cpp": SPDX + "#include <fovea/linux/p.hpp>\n",
-    "tests/core/base/a_test.cpp": SPDX + "#include <fovea/base/a.hpp>\n",
+    "tests/core/base/a_test.cpp": SPDX + "#include <gtest/gtest.h>\n\n#include <fovea/base/a.hpp>\n",
 }
 BASE = "core/include/fovea/base/a.hpp"
 
@@ -85,6 +85,8 @@ def layers(folder):
         ("an intrinsics header outside simd", {BASE: HEAD + "#include <arm_acle.h>\n"}, "forbidden header in the core"),
         ("quotes", {BASE: HEAD + '#include "b.hpp"\n'}, "the core includes with <>"),
         ("a folder nobody listed", {"core/include/fovea/misc/m.hpp": HEAD}, "not in core/layers.txt"),
+        ("a test without GoogleTest", {"tests/core/base/a_test.cpp": SPDX + "#include <fovea/base/a.hpp>\n"},
+         "a test includes <gtest/gtest.h>"),
         ("a header that is not there", {BASE: HEAD + "#include <fovea/base/gone.hpp>\n"}, "no such header"),
     ]
     for number, (what, files, words) in enumerate([("a good tree", {}, None), *faults]):

@@ -45,6 +45,8 @@ def check_form(source):
     for part in source.path.parts:
         if not SNAKE_CASE.fullmatch(part):
             find(source.path, f"'{part}' is not snake_case")
+    if source.path.name.endswith("_test.cpp") and ("<", "gtest/gtest.h") not in source.includes:
+        find(source.path, "a test includes <gtest/gtest.h>, though it is compiled beforehand")
     if source.path.suffix == ".hpp":
         if lines.count("#pragma once") != 1:
             find(source.path, "needs one #pragma once")
