@@ -55,31 +55,45 @@ inline std::int64_t strength_of(const Samples& samples, const LocateRule& rule, 
     return least;
 }
 
-/// Directs a rule by the symmetry that all samples have, in their outline or else with their holes; by none
-/// if no order stands out.
+/// The order by which all samples repeat themselves under a pose rule; 0 if none stands out.
+inline int order_of(const Samples& samples, LocateRule rule, const Scale& scale) {
+    std::int64_t strengths[max_symmetry_order + 1] = {};
+    for (int order = min_symmetry_order; order <= max_symmetry_order; ++order) {
+        rule.symmetry_order = order;
+        strengths[order] = strength_of(samples, rule, scale);
+    }
+    // A part that repeats itself has its own order and multiples of it, of which one may be stronger: a
+    // hexagon with three holes. A nick has all orders alike.
+    const auto stands_out = [&](int order) {
+        if (strengths[order] * Ratio::one <= 2 * std::int64_t{least_symmetry.raw()} * 1000000) return false;
+        for (int other = min_symmetry_order; other <= max_symmetry_order; ++other)
+            if (other % order != 0 && strengths[other] * 2 > strengths[order]) return false;
+        return true;
+    };
+    for (int order = min_symmetry_order; order <= max_symmetry_order; ++order)
+        if (stands_out(order)) return order;
+    return 0;
+}
+
+/// Directs a rule by the symmetry that all samples have, in their outline or, where they have less of it,
+/// with their holes; by none if no order stands out.
 inline void use_symmetry(const Samples& samples, const Scale& scale, LocateRule& rule) {
     rule.orientation = OrientationRule::rotational;
-    const PoseRule by_holes = rule.pose;
-    for (const PoseRule pose : {by_holes, PoseRule::region}) {
-        rule.pose = pose;
-        std::int64_t strengths[max_symmetry_order + 1] = {};
-        int best = 0;
-        for (int order = min_symmetry_order; order <= max_symmetry_order; ++order) {
-            rule.symmetry_order = order;
-            strengths[order] = strength_of(samples, rule, scale);
-            if (strengths[order] > strengths[best]) best = order;
+    int order = order_of(samples, rule, scale);
+    if (rule.pose == PoseRule::outline) {
+        LocateRule by_region = rule;
+        by_region.pose = PoseRule::region;
+        const int with_holes = order_of(samples, by_region, scale);
+        if (with_holes != 0 && (order == 0 || (with_holes < order && order % with_holes == 0))) {
+            rule.pose = PoseRule::region;
+            order = with_holes;
         }
-        // A part that repeats itself has no other orders but multiples of its own; a nick has all of them.
-        bool stands_out = strengths[best] * Ratio::one > 2 * std::int64_t{least_symmetry.raw()} * 1000000;
-        for (int order = min_symmetry_order; order <= max_symmetry_order; ++order)
-            if (order % std::max(best, 1) != 0 && strengths[order] * 2 > strengths[best]) stands_out = false;
-        rule.symmetry_order = best;
-        if (stands_out) return;
-        if (by_holes == PoseRule::region) break;
     }
-    rule.orientation = OrientationRule::none;
-    rule.pose = by_holes;
-    rule.symmetry_order = LocateRule().symmetry_order;
+    if (order != 0) {
+        rule.symmetry_order = order;
+    } else {
+        rule.orientation = OrientationRule::none;
+    }
 }
 
 }  // namespace detail

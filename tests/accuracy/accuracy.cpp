@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gauge/gauge_command.hpp>
@@ -374,6 +375,15 @@ int main() {
     for (const double noise : {0.0, 2.0, 4.0, 8.0, 16.0, 24.0, 32.0})
         rows.push_back({decimal(noise), study([&](PartScene& s) { s.noise = std::llround(noise * 1e6); })});
     print_tables("noise", rows);
+
+    std::printf("\n## Blur and noise together\n");
+    rows.clear();
+    for (const auto& [blur, noise] : {std::pair{1.5, 8.0}, {2.0, 8.0}, {3.0, 8.0}, {2.0, 16.0}})
+        rows.push_back({decimal(blur) + ", " + decimal(noise), study([&, b = blur, n = noise](PartScene& s) {
+                            s.blur = std::llround(b * 1e6);
+                            s.noise = std::llround(n * 1e6);
+                        })});
+    print_tables("blur, noise", rows);
 
     std::printf("\n## Contrast\n");
     rows.clear();

@@ -85,14 +85,16 @@ inline Shape polygon(int sides, double apothem) {
         return std::hypot(s, t) * std::cos(angle) <= apothem;
     };
 }
-/// A disc with holes around its middle.
-inline Shape flange(int holes) {
+/// A shape with round holes in a circle around its middle, the first to the right.
+inline Shape drilled(const Shape& shape, int holes, double distance, double radius) {
     return [=](double s, double t) {
         const double angle = std::remainder(std::atan2(t, s), 2 * pi / holes);
-        const double radius = std::hypot(s, t);
-        return radius <= 80 && std::hypot(radius * std::cos(angle) - 55, radius * std::sin(angle)) >= 9;
+        const double from_middle = std::hypot(s, t);
+        return shape(s, t) &&
+               std::hypot(from_middle * std::cos(angle) - distance, from_middle * std::sin(angle)) >= radius;
     };
 }
+inline Shape flange(int holes) { return drilled(disc(80), holes, 55, 9); }
 inline Shape gear() {
     return [](double s, double t) {
         const double radius = std::hypot(s, t);

@@ -110,12 +110,15 @@ TEST(RuleFrom, FindsTheOrderOfWhatRepeatsItself) {
         int order;
         PoseRule pose;
     };
-    const Example examples[] = {{"triangle", polygon(3, 40), 3, PoseRule::region},
-                                {"square", rectangle(120, 120), 4, PoseRule::region},
-                                {"star", star(), 5, PoseRule::region},
-                                {"nut", without(polygon(6, 60), disc(30), 0, 0), 6, PoseRule::outline},
-                                {"flange of 5", flange(5), 5, PoseRule::region},
-                                {"flange of 8", flange(8), 8, PoseRule::region}};
+    const Example examples[] = {
+        {"triangle", polygon(3, 40), 3, PoseRule::region},
+        {"square", rectangle(120, 120), 4, PoseRule::region},
+        {"star", star(), 5, PoseRule::region},
+        {"nut", without(polygon(6, 60), disc(30), 0, 0), 6, PoseRule::outline},
+        {"hexagon with 3 holes", drilled(polygon(6, 60), 3, 36, 9), 3, PoseRule::region},
+        {"square with 4 holes", drilled(rectangle(120, 120), 4, 40, 9), 4, PoseRule::outline},
+        {"flange of 5", flange(5), 5, PoseRule::region},
+        {"flange of 8", flange(8), 8, PoseRule::region}};
     std::uint64_t seed = 516;
     for (const Example& example : examples) {
         SCOPED_TRACE(example.name);

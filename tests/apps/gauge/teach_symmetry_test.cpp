@@ -107,6 +107,22 @@ TEST(TeachSymmetry, MeasuresTheHolesOfAFlangeHoweverItLies) {
     EXPECT_EQ(verdicts_of(lying(lacking, 100, 441), recipe).compare(0, 16, "not_ok holes:low"), 0);
 }
 
+TEST(TeachSymmetry, MeasuresTheHolesOfAHexagonThatHasOneBehindEverySecondSide) {
+    // The outline alone repeats itself six times, with the holes it does three times.
+    const auto part = [](double wide_hole) {
+        return without(drilled(polygon(6, 70), 3, 42, 10), disc(wide_hole), -21, -21 * std::sqrt(3.0));
+    };
+    const Recipe recipe = taught_from({lying(part(0), 7, 457)}).recipe;
+    EXPECT_EQ(recipe.locate.symmetry_order, 3);
+    const Names names = feature_names(recipe);
+    for (const char* name : {"length", "width_1", "width_2", "hole_1", "hole_2", "hole_3", "holes"})
+        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+    accepts_in_twenty_poses(recipe, part(0), 120, 458);
+    for (const int turn : {7, 67, 127, 187})
+        EXPECT_EQ(verdicts_of(lying(part(10.75), turn, 480), recipe).compare(0, 11, "not_ok hole"), 0)
+            << turn;
+}
+
 TEST(TeachSymmetry, ProposesOnlyWhatDoesNotDependOnTheTurnOfAPartWithoutDirection) {
     // Waves of two orders, of which none stands out.
     const auto cam = [](double hole) -> Shape {

@@ -1,49 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include <fovea/base/random.hpp>
-#include <fovea/codec/bmp.hpp>
-#include <fovea/codec/png_reader.hpp>
-#include <support/guarded_image.hpp>
-#include <support/picture.hpp>
-
 #include "lossless_files.hpp"
-
-#if defined(FOVEA_HAVE_LIBPNG)
-#include "libpng_oracle.hpp"
-#endif
+#include "png_decoding.hpp"
 
 namespace fovea::test {
 namespace {
-
-/// Decodes with exactly the scratch that the file asks for, at an odd address.
-template <class Pixel>
-Status decode(const Bytes& file, ImageView<Pixel> dst) {
-    const Result<PictureInfo> info = inspect_png(view_of(file));
-    Bytes scratch(static_cast<std::size_t>(info ? info->scratch_bytes : 0) + 1, 0xa5);
-    return decode_png(view_of(file), room_in(scratch).from(1), dst);
-}
-
-template <class Pixel>
-GuardedImage<Pixel> decoded(const Bytes& file, Size size) {
-    GuardedImage<Pixel> dst(size);
-    EXPECT_EQ(decode(file, dst.view()), Status::ok);
-    return dst;
-}
-
-/// The status of a file that must leave the output as it was.
-Status refusal(const Bytes& file, Size size = {1, 1}) {
-    GuardedImage<Gray8> dst(size);
-    fill_bytes(dst.view(), 77);
-    const Status status = decode(file, dst.view());
-    EXPECT_TRUE(all_bytes_are(dst.view(), 77)) << describe(status);
-    return status;
-}
 
 // ---- Files by hand ----------------------------------------------------------------
 
@@ -54,7 +19,7 @@ TEST(PngReader, ReadsGrayAsItStands) {
     EXPECT_EQ(info->size, (Size{3, 2}));
     EXPECT_EQ(info->content, PictureContent::gray8);
     EXPECT_EQ(info->scratch_bytes, inflate_scratch() + 2 * (8 + 3));
-    const GuardedImage<Gray8> dst = decoded<Gray8>(file, {3, 2});
+    const GuardedImage<Gray8> dst = decoded_png<Gray8>(file, {3, 2});
     for (int x = 0; x < 3; ++x) {
         EXPECT_EQ(dst(x, 0), 1 + x);
         EXPECT_EQ(dst(x, 1), 253 + x);
@@ -75,14 +40,14 @@ TEST(PngReader, ReadsEveryFilterInTheFirstRowAndBelow) {
             rows.push_back(static_cast<std::uint8_t>(other_filter));
             append(rows, below);
             const GuardedImage<Gray8> dst =
-                decoded<Gray8>(PngFile().header(3, 2, 8, 0).rows(rows).end().bytes, {3, 2});
+                decoded_png<Gray8>(PngFile().header(3, 2, 8, 0).rows(rows).end().bytes, {3, 2});
             const int expected[] = {10, 20, 40, 12, 25, 80};
             for (int i = 0; i < 6; ++i)
                 ASSERT_EQ(dst(i % 3, i / 3), expected[i]) << filter << " " << other_filter;
         }
-    EXPECT_EQ(
-        decode(PngFile().header(1, 1, 8, 0).rows({5, 0}).end().bytes, GuardedImage<Gray8>({1, 1}).view()),
-        Status::malformed);
+    EXPECT_EQ(decode_with_scratch(PngFile().header(1, 1, 8, 0).rows({5, 0}).end().bytes,
+                                  GuardedImage<Gray8>({1, 1}).view()),
+              Status::malformed);
 }
 
 TEST(PngReader, ThePaethPredictorTakesLeftBeforeAboveBeforeTheCorner) {
@@ -108,30 +73,30 @@ TEST(PngReader, SpreadsSmallDepthsOverTheWholeRange) {
     // Nine pixels of one bit: 1 0 1 1 0 0 1 0, 1; the bits behind them mean nothing.
     const Bytes one = PngFile().header(9, 1, 1, 0).rows({0, 0b10110010, 0b11111111}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(one))->content, PictureContent::gray8);
-    const GuardedImage<Gray8> bits = decoded<Gray8>(one, {9, 1});
+    const GuardedImage<Gray8> bits = decoded_png<Gray8>(one, {9, 1});
     const int expected[] = {255, 0, 255, 255, 0, 0, 255, 0, 255};
     for (int x = 0; x < 9; ++x) EXPECT_EQ(bits(x, 0), expected[x]);
 
     const GuardedImage<Gray8> two =
-        decoded<Gray8>(PngFile().header(4, 1, 2, 0).rows({0, 0b00011011}).end().bytes, {4, 1});
+        decoded_png<Gray8>(PngFile().header(4, 1, 2, 0).rows({0, 0b00011011}).end().bytes, {4, 1});
     for (int x = 0; x < 4; ++x) EXPECT_EQ(two(x, 0), 85 * x);
     const Bytes four = PngFile().header(3, 1, 4, 0).rows({0, 0x0f, 0x80}).end().bytes;
-    const GuardedImage<Gray8> nibbles = decoded<Gray8>(four, {3, 1});
+    const GuardedImage<Gray8> nibbles = decoded_png<Gray8>(four, {3, 1});
     EXPECT_EQ(nibbles(0, 0), 0);
     EXPECT_EQ(nibbles(1, 0), 255);
     EXPECT_EQ(nibbles(2, 0), 8 * 17);
-    EXPECT_EQ(decoded<Gray16>(four, {3, 1})(2, 0), 8 * 0x1111);
-    EXPECT_EQ(decoded<Rgb888>(four, {3, 1})(2, 0), (Rgb888{136, 136, 136}));
+    EXPECT_EQ(decoded_png<Gray16>(four, {3, 1})(2, 0), 8 * 0x1111);
+    EXPECT_EQ(decoded_png<Rgb888>(four, {3, 1})(2, 0), (Rgb888{136, 136, 136}));
 }
 
 TEST(PngReader, ReadsSixteenBitsIntoSixteenAndRoundsThemIntoEight) {
     const Bytes file =
         PngFile().header(3, 1, 16, 0).rows({0, 0x12, 0x34, 0x00, 0x80, 0x00, 0x81}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(file))->content, PictureContent::gray16);
-    const GuardedImage<Gray16> wide = decoded<Gray16>(file, {3, 1});
+    const GuardedImage<Gray16> wide = decoded_png<Gray16>(file, {3, 1});
     EXPECT_EQ(wide(0, 0), 0x1234);
     EXPECT_EQ(wide(1, 0), 0x80);
-    const GuardedImage<Gray8> narrow = decoded<Gray8>(file, {3, 1});
+    const GuardedImage<Gray8> narrow = decoded_png<Gray8>(file, {3, 1});
     EXPECT_EQ(narrow(0, 0), 0x12);
     // 128 / 257 is below a half, 129 / 257 above.
     EXPECT_EQ(narrow(1, 0), 0);
@@ -141,37 +106,37 @@ TEST(PngReader, ReadsSixteenBitsIntoSixteenAndRoundsThemIntoEight) {
 TEST(PngReader, ReadsColoursAndIgnoresAlpha) {
     const Bytes rgb = PngFile().header(2, 1, 8, 2).rows({0, 1, 2, 3, 4, 5, 6}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(rgb))->content, PictureContent::rgb888);
-    EXPECT_EQ(decoded<Rgb888>(rgb, {2, 1})(1, 0), (Rgb888{4, 5, 6}));
-    EXPECT_EQ(decoded<Gray8>(rgb, {2, 1})(1, 0), gray_of({4, 5, 6}));
-    EXPECT_EQ(decoded<Gray16>(rgb, {2, 1})(1, 0), 257 * gray_of({4, 5, 6}));
+    EXPECT_EQ(decoded_png<Rgb888>(rgb, {2, 1})(1, 0), (Rgb888{4, 5, 6}));
+    EXPECT_EQ(decoded_png<Gray8>(rgb, {2, 1})(1, 0), gray_of({4, 5, 6}));
+    EXPECT_EQ(decoded_png<Gray16>(rgb, {2, 1})(1, 0), 257 * gray_of({4, 5, 6}));
     const Bytes rgba = PngFile().header(2, 1, 8, 6).rows({0, 1, 2, 3, 0, 4, 5, 6, 128}).end().bytes;
-    EXPECT_EQ(decoded<Rgb888>(rgba, {2, 1})(0, 0), (Rgb888{1, 2, 3}));
-    EXPECT_EQ(decoded<Rgb888>(rgba, {2, 1})(1, 0), (Rgb888{4, 5, 6}));
+    EXPECT_EQ(decoded_png<Rgb888>(rgba, {2, 1})(0, 0), (Rgb888{1, 2, 3}));
+    EXPECT_EQ(decoded_png<Rgb888>(rgba, {2, 1})(1, 0), (Rgb888{4, 5, 6}));
     const Bytes gray_alpha = PngFile().header(2, 1, 8, 4).rows({0, 7, 0, 8, 255}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(gray_alpha))->content, PictureContent::gray8);
-    EXPECT_EQ(decoded<Gray8>(gray_alpha, {2, 1})(0, 0), 7);
-    EXPECT_EQ(decoded<Gray8>(gray_alpha, {2, 1})(1, 0), 8);
+    EXPECT_EQ(decoded_png<Gray8>(gray_alpha, {2, 1})(0, 0), 7);
+    EXPECT_EQ(decoded_png<Gray8>(gray_alpha, {2, 1})(1, 0), 8);
     const Bytes deep = PngFile().header(1, 1, 16, 6).rows({0, 255, 255, 0x80, 0x80, 0, 0, 9, 9}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(deep))->content, PictureContent::rgb48);
     EXPECT_EQ(inspect_png(view_of(deep))->scratch_bytes, png_reader_scratch({1, 1}));
-    EXPECT_EQ(decoded<Rgb888>(deep, {1, 1})(0, 0), (Rgb888{255, 128, 0}));
+    EXPECT_EQ(decoded_png<Rgb888>(deep, {1, 1})(0, 0), (Rgb888{255, 128, 0}));
     const Bytes deep_gray = PngFile().header(1, 1, 16, 4).rows({0, 0x12, 0x34, 9, 9}).end().bytes;
-    EXPECT_EQ(decoded<Gray16>(deep_gray, {1, 1})(0, 0), 0x1234);
+    EXPECT_EQ(decoded_png<Gray16>(deep_gray, {1, 1})(0, 0), 0x1234);
 }
 
 TEST(PngReader, LooksColoursUpInThePalette) {
     const Bytes palette = {255, 0, 0, 0, 255, 0, 0, 0, 255};
     const Bytes file = PngFile().header(4, 1, 2, 3).chunk("PLTE", palette).rows({0, 0b00011000}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(file))->content, PictureContent::rgb888);
-    const GuardedImage<Rgb888> dst = decoded<Rgb888>(file, {4, 1});
+    const GuardedImage<Rgb888> dst = decoded_png<Rgb888>(file, {4, 1});
     EXPECT_EQ(dst(0, 0), (Rgb888{255, 0, 0}));
     EXPECT_EQ(dst(1, 0), (Rgb888{0, 255, 0}));
     EXPECT_EQ(dst(2, 0), (Rgb888{0, 0, 255}));
-    EXPECT_EQ(decoded<Gray8>(file, {4, 1})(1, 0), gray_of({0, 255, 0}));
+    EXPECT_EQ(decoded_png<Gray8>(file, {4, 1})(1, 0), gray_of({0, 255, 0}));
     // The fourth index has no colour.
     const Bytes beyond =
         PngFile().header(4, 1, 2, 3).chunk("PLTE", palette).rows({0, 0b00011011}).end().bytes;
-    EXPECT_EQ(decode(beyond, GuardedImage<Rgb888>({4, 1}).view()), Status::malformed);
+    EXPECT_EQ(decode_with_scratch(beyond, GuardedImage<Rgb888>({4, 1}).view()), Status::malformed);
 }
 
 TEST(PngReader, JoinsDataOfSeveralChunksAndSkipsWhatItMaySkip) {
@@ -180,9 +145,9 @@ TEST(PngReader, JoinsDataOfSeveralChunksAndSkipsWhatItMaySkip) {
     file.header(3, 2, 8, 0).chunk("gAMA", {0, 0, 1, 0}).chunk("teXt", bytes_of("a text")).chunk("IDAT", {});
     for (const std::uint8_t byte : data) file.chunk("IDAT", {byte});
     file.chunk("IDAT", {}).chunk("tIME", Bytes(7)).end();
-    EXPECT_EQ(decoded<Gray8>(file.bytes, {3, 2})(2, 1), 6);
+    EXPECT_EQ(decoded_png<Gray8>(file.bytes, {3, 2})(2, 1), 6);
     append(file.bytes, bytes_of("whatever follows"));
-    EXPECT_EQ(decoded<Gray8>(file.bytes, {3, 2})(2, 1), 6);
+    EXPECT_EQ(decoded_png<Gray8>(file.bytes, {3, 2})(2, 1), 6);
 }
 
 // ---- Refusals ---------------------------------------------------------------------
@@ -217,29 +182,30 @@ TEST(PngReader, RefusesChunksOutOfOrderBeforeItWritesAPixel) {
     const Bytes palette(6);
     const auto file = [] { return PngFile().header(1, 1, 8, 0); };
     const auto indexed = [] { return PngFile().header(1, 1, 1, 3); };
-    EXPECT_EQ(refusal(file().end().bytes), Status::malformed);
-    EXPECT_EQ(refusal(file().rows(row).chunk("IEND", {0}).bytes), Status::malformed);
-    EXPECT_EQ(refusal(file().rows(row).header(1, 1, 8, 0).end().bytes), Status::malformed);
-    EXPECT_EQ(refusal(file().rows(row).chunk("tIME", {}).rows(row).end().bytes), Status::malformed);
-    EXPECT_EQ(refusal(file().chunk("PLTE", palette).rows(row).end().bytes), Status::malformed);
-    EXPECT_EQ(refusal(indexed().rows(row).end().bytes), Status::malformed);
-    EXPECT_EQ(refusal(indexed().rows(row).chunk("PLTE", palette).end().bytes), Status::malformed);
-    EXPECT_EQ(refusal(indexed().chunk("PLTE", palette).chunk("PLTE", palette).rows(row).end().bytes),
+    EXPECT_EQ(png_refusal(file().end().bytes), Status::malformed);
+    EXPECT_EQ(png_refusal(file().rows(row).chunk("IEND", {0}).bytes), Status::malformed);
+    EXPECT_EQ(png_refusal(file().rows(row).header(1, 1, 8, 0).end().bytes), Status::malformed);
+    EXPECT_EQ(png_refusal(file().rows(row).chunk("tIME", {}).rows(row).end().bytes), Status::malformed);
+    EXPECT_EQ(png_refusal(file().chunk("PLTE", palette).rows(row).end().bytes), Status::malformed);
+    EXPECT_EQ(png_refusal(indexed().rows(row).end().bytes), Status::malformed);
+    EXPECT_EQ(png_refusal(indexed().rows(row).chunk("PLTE", palette).end().bytes), Status::malformed);
+    EXPECT_EQ(png_refusal(indexed().chunk("PLTE", palette).chunk("PLTE", palette).rows(row).end().bytes),
               Status::malformed);
     for (const std::size_t bytes : {0u, 1u, 5u, 9u})
-        EXPECT_EQ(refusal(indexed().chunk("PLTE", Bytes(bytes)).rows(row).end().bytes), Status::malformed)
+        EXPECT_EQ(png_refusal(indexed().chunk("PLTE", Bytes(bytes)).rows(row).end().bytes), Status::malformed)
             << bytes;
-    EXPECT_EQ(
-        refusal(PngFile().header(1, 1, 8, 2).chunk("PLTE", Bytes(3 * 257)).rows({0, 1, 2, 3}).end().bytes),
-        Status::malformed);
-    EXPECT_EQ(decode(PngFile().header(1, 1, 8, 2).chunk("PLTE", palette).rows({0, 1, 2, 3}).end().bytes,
-                     GuardedImage<Gray8>({1, 1}).view()),
+    EXPECT_EQ(png_refusal(
+                  PngFile().header(1, 1, 8, 2).chunk("PLTE", Bytes(3 * 257)).rows({0, 1, 2, 3}).end().bytes),
+              Status::malformed);
+    EXPECT_EQ(decode_with_scratch(
+                  PngFile().header(1, 1, 8, 2).chunk("PLTE", palette).rows({0, 1, 2, 3}).end().bytes,
+                  GuardedImage<Gray8>({1, 1}).view()),
               Status::ok);
 }
 
 TEST(PngReader, RefusesUnknownChunksThatMustNotBeSkipped) {
     const auto status = [](const std::string& name) {
-        return refusal(PngFile().header(1, 1, 8, 0).chunk(name, {}).rows({0, 9}).chunk("zzZz", {}).bytes);
+        return png_refusal(PngFile().header(1, 1, 8, 0).chunk(name, {}).rows({0, 9}).chunk("zzZz", {}).bytes);
     };
     EXPECT_EQ(status("ABCD"), Status::unsupported);
     EXPECT_EQ(status("CgBI"), Status::unsupported);
@@ -250,19 +216,19 @@ TEST(PngReader, RefusesUnknownChunksThatMustNotBeSkipped) {
 
 TEST(PngReader, RefusesWrongChecksumsBeforeItWritesAPixel) {
     const Bytes file = PngFile().header(1, 1, 8, 0).chunk("tEXt", {1, 2, 3}).rows({0, 9}).end().bytes;
-    EXPECT_EQ(decode(file, GuardedImage<Gray8>({1, 1}).view()), Status::ok);
+    EXPECT_EQ(decode_with_scratch(file, GuardedImage<Gray8>({1, 1}).view()), Status::ok);
     for (std::size_t at = 0; at < file.size(); ++at)
         for (const int change : {1, 0x20, 0x80, 0xff}) {
             Bytes changed = file;
             changed[at] ^= static_cast<std::uint8_t>(change);
-            ASSERT_NE(refusal(changed), Status::ok) << at;
+            ASSERT_NE(png_refusal(changed), Status::ok) << at;
         }
 }
 
 TEST(PngReader, LeavesTheOutputOfATruncatedFile) {
     const Bytes file = PngFile().header(1, 1, 8, 0).chunk("tEXt", {1, 2, 3}).rows({0, 9}).end().bytes;
     for (std::size_t length = 0; length < file.size(); ++length) {
-        ASSERT_EQ(refusal(first_bytes(file, length)), Status::truncated) << length;
+        ASSERT_EQ(png_refusal(first_bytes(file, length)), Status::truncated) << length;
         EXPECT_EQ(inspect_png(view_of(first_bytes(file, length))).status(),
                   length < 8 + 25 ? Status::truncated : Status::ok);
     }
@@ -274,7 +240,8 @@ TEST(PngReader, KeepsTheRowsBeforeAFaultInDataWithRightChecksums) {
          {Bytes{0, 1, 2, 9, 3, 4, 0, 5, 6}, Bytes{0, 1, 2}, Bytes{0, 1, 2, 0}, Bytes{0, 1, 2, 0, 3}}) {
         GuardedImage<Gray8> dst({2, 3});
         fill_bytes(dst.view(), 77);
-        const Status status = decode(PngFile().header(2, 3, 8, 0).rows(rows).end().bytes, dst.view());
+        const Status status =
+            decode_with_scratch(PngFile().header(2, 3, 8, 0).rows(rows).end().bytes, dst.view());
         EXPECT_EQ(status, rows.size() == 9 ? Status::malformed : Status::truncated);
         EXPECT_EQ(dst(0, 0), 1);
         EXPECT_EQ(dst(1, 0), 2);
@@ -286,7 +253,7 @@ TEST(PngReader, KeepsTheRowsBeforeAFaultInDataWithRightChecksums) {
 TEST(PngReader, RefusesMoreDataThanThePictureHas) {
     const auto status = [](const Bytes& data) {
         GuardedImage<Gray8> dst({1, 1});
-        return decode(PngFile().header(1, 1, 8, 0).chunk("IDAT", data).end().bytes, dst.view());
+        return decode_with_scratch(PngFile().header(1, 1, 8, 0).chunk("IDAT", data).end().bytes, dst.view());
     };
     const Bytes right = zlib_stored({0, 9});
     EXPECT_EQ(status(right), Status::ok);
@@ -325,141 +292,6 @@ TEST(PngReader, NeedsNoMoreScratchThanItsBoundForAnyDepth) {
             EXPECT_LE(inspect_png(view_of(header))->scratch_bytes, png_reader_scratch({width, 1}));
         }
 }
-
-// ---- PngSuite and its twins -------------------------------------------------------
-
-TEST(PngSuite, EveryPictureEqualsItsTwinInBmp) {
-    const auto folder = data_folder() / "decoders" / "pngsuite";
-    FOVEA_NEED_PICTURE(folder);
-    int compared = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "png")) {
-        const std::string name = entry.path().stem().string();
-        // The twin of tbbn0g04 is black where the picture is transparent.
-        if (name[0] == 'x' || name[3] == 'i' || name == "tbbn0g04") continue;
-        const Bytes png = read_file(entry.path());
-        const Bytes bmp = read_file(folder / "bmp" / (name + ".bmp"));
-        const Size size = inspect_png(view_of(png))->size;
-        ASSERT_EQ(inspect_bmp(view_of(bmp))->size, size) << name;
-        const GuardedImage<Rgb888> ours = decoded<Rgb888>(png, size);
-        GuardedImage<Rgb888> twin(size);
-        ASSERT_EQ(decode_bmp(view_of(bmp), twin.view()), Status::ok) << name;
-        // Of 16 bits the twins hold the higher byte. v / 257 is at most 255 / 257 below v / 256, so that the
-        // nearest integer to the one and the next below the other are at most 1 apart.
-        const int tolerance = name.substr(name.size() - 2) == "16" ? 1 : 0;
-        for (int y = 0; y < size.height; ++y)
-            for (int x = 0; x < size.width; ++x) {
-                ASSERT_LE(std::abs(ours(x, y).red - twin(x, y).red), tolerance) << name;
-                ASSERT_LE(std::abs(ours(x, y).green - twin(x, y).green), tolerance) << name;
-                ASSERT_LE(std::abs(ours(x, y).blue - twin(x, y).blue), tolerance) << name;
-            }
-        ++compared;
-    }
-    EXPECT_EQ(compared, 125);
-}
-
-#if defined(FOVEA_HAVE_LIBPNG)
-
-// ---- Against libpng ---------------------------------------------------------------
-
-/// Compares all three pixels with what libpng reads.
-void expect_as_libpng(const Bytes& file, const std::string& name) {
-    const LibpngPicture expected = libpng_read(file);
-    ASSERT_TRUE(expected.read) << name;
-    const Result<PictureInfo> info = inspect_png(view_of(file));
-    ASSERT_TRUE(info.ok()) << name << ": " << describe(info.status());
-    ASSERT_EQ(info->size, expected.size) << name;
-    const bool gray = info->content == PictureContent::gray8 || info->content == PictureContent::gray16;
-    ASSERT_EQ(gray, expected.gray) << name;
-    const GuardedImage<Rgb888> colour = decoded<Rgb888>(file, info->size);
-    const GuardedImage<Gray8> level = decoded<Gray8>(file, info->size);
-    const GuardedImage<Gray16> wide = decoded<Gray16>(file, info->size);
-    const std::uint8_t* sample = expected.samples.data();
-    for (int y = 0; y < info->size.height; ++y)
-        for (int x = 0; x < info->size.width; ++x, sample += gray ? 1 : 3) {
-            const Rgb888 right =
-                gray ? Rgb888{sample[0], sample[0], sample[0]} : Rgb888{sample[0], sample[1], sample[2]};
-            ASSERT_EQ(colour(x, y), right) << name << " at " << x << "," << y;
-            ASSERT_EQ(level(x, y), gray ? sample[0] : gray_of(right)) << name;
-            if (expected.file_depth < 16 || !gray) {
-                ASSERT_EQ(wide(x, y), 257 * level(x, y)) << name;
-            } else {
-                // Their 16 bits were rounded to 8, and these must round to the same.
-                ASSERT_EQ((wide(x, y) + 128) / 257, sample[0]) << name;
-            }
-        }
-}
-
-TEST(PngSuite, EveryPictureIsReadAsLibpngReadsItOrRefusedByName) {
-    const auto folder = data_folder() / "decoders" / "pngsuite" / "png";
-    FOVEA_NEED_PICTURE(folder);
-    int read = 0;
-    int refused = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        const Bytes file = read_file(entry.path());
-        if (name[0] == 'x') {
-            // Corrupt: signature, header, checksum or data. What they have of a header may say their size.
-            const Result<PictureInfo> info = inspect_png(view_of(file));
-            EXPECT_EQ(refusal(file, info ? info->size : Size{32, 32}), Status::malformed) << name;
-            ++refused;
-        } else if (name[3] == 'i') {
-            EXPECT_EQ(refusal(file, {32, 32}), Status::unsupported) << name;
-            ++refused;
-        } else {
-            expect_as_libpng(file, name);
-            ++read;
-        }
-    }
-    // Of 175 files 14 are corrupt and 35 interlaced.
-    EXPECT_EQ(read, 126);
-    EXPECT_EQ(refused, 49);
-}
-
-TEST(PngReader, ReadsThePicturesOfOpencvAsLibpngReadsThem) {
-    FOVEA_NEED_PICTURE(opencv_doc_folder());
-    int read = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(opencv_doc_folder())) {
-        if (entry.path().extension() != ".png") continue;
-        expect_as_libpng(read_file(entry.path()), entry.path().filename().string());
-        ++read;
-    }
-    EXPECT_GE(read, 30);
-}
-
-TEST(PngReader, ReadsWhatLibpngWritesInEverySizeWithEveryFilter) {
-    Random random(1);
-    for (const Size size : test_sizes())
-        for (const bool gray : {true, false})
-            for (const int filters : {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG,
-                                      PNG_FILTER_PAETH, PNG_ALL_FILTERS}) {
-                Bytes samples = zeros(size.area() * (gray ? 1 : 3));
-                // Smooth with a little noise, so that all filters and matches come up.
-                for (std::size_t i = 0; i < samples.size(); ++i)
-                    samples[i] = static_cast<std::uint8_t>(i / 7 + random.below(4));
-                expect_as_libpng(libpng_write(samples, size, gray, filters), "made here");
-            }
-}
-
-TEST(PngReader, EveryChangedByteIsRefusedOrChangesNothing) {
-    Random random(2);
-    const Size size{13, 7};
-    Bytes samples = zeros(size.area() * 3);
-    for (std::uint8_t& sample : samples) sample = static_cast<std::uint8_t>(random.below(40));
-    const Bytes file = libpng_write(samples, size, false);
-    const GuardedImage<Rgb888> expected = decoded<Rgb888>(file, size);
-    for (std::size_t at = 0; at < file.size(); ++at)
-        for (int bit = 0; bit < 8; ++bit) {
-            Bytes changed = file;
-            changed[at] ^= static_cast<std::uint8_t>(1 << bit);
-            GuardedImage<Rgb888> dst(size);
-            ASSERT_TRUE(decode(changed, dst.view()) != Status::ok || equal(dst.view(), expected.view()))
-                << at;
-        }
-    for (std::size_t length = 0; length < file.size(); ++length)
-        ASSERT_EQ(refusal(first_bytes(file, length), size), Status::truncated) << length;
-}
-
-#endif
 
 }  // namespace
 }  // namespace fovea::test
