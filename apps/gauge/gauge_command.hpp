@@ -77,8 +77,9 @@ void complain_unmeasured(Io& io, const std::string& job, const RecipeFile& file,
     if (orientation != Status::ok) {
         io.complain(
             part_name + ": " + orientation_problem(orientation) +
-            (orientation == Status::undecided
-                 ? "; it may be dirty, turned over or another part, or orientation = \"symmetric\" suits it"
+            (orientation == Status::undecided ? "; it may be damaged, dirty, turned over or another part; if "
+                                                "the ends of all parts are alike, "
+                                                "orientation = \"symmetric\" measures it"
              : file.recipe.locate.orientation == OrientationRule::rotational
                  ? "; it may be dirty or another part, or symmetry_order is another"
                  : "; orientation = \"none\" measures it as it lies, \"rotational\" by its symmetry"));

@@ -75,13 +75,30 @@ inline FinePoint in_pixels(PartPoint place, const Scale& scale) {
             FinePixel::from_ratio(place.y, scale.x_per_pixel)};
 }
 
-/// The circle through an outline, in widths of a pixel about the origin of the part.
-inline Result<CircleFit> circle_of(const Outline& outline, const Scale& scale) {
+/// The circle of an outline, in widths of a pixel about the origin of the part, and how much of the outline
+/// is something else: off it by a fiftieth of the radius or two pixels.
+struct RoundOutline {
+    Circle circle;
+    int percent_off = 0;  ///< rounded up
+};
+
+/// not_found if more than a fifth is off the circle.
+inline Result<RoundOutline> circle_of(const Outline& outline, const Scale& scale) {
     std::vector<FinePoint> points;
     const std::size_t step = outline.points.size() / static_cast<std::size_t>(max_fit_points) + 1;
     for (std::size_t i = 0; i < outline.points.size(); i += step)
         points.push_back(in_pixels(outline.points[i], scale));
-    return fit_circle({points.data(), static_cast<std::ptrdiff_t>(points.size())});
+    std::vector<FinePixel> scratch(points.size());
+    const Span<const FinePoint> all(points.data(), static_cast<std::ptrdiff_t>(points.size()));
+    const Result<CircleFit> fit =
+        fit_circle_robust(all, {scratch.data(), all.size()}, FinePixel::from_int(2));
+    if (!fit) return fit.status();
+    const FinePixel most = std::min(fine_ratio(fit->circle.radius, 50), FinePixel::from_int(2));
+    const auto off = std::count_if(points.begin(), points.end(), [&](FinePoint point) {
+        return magnitude(distance_from(fit->circle, point).raw()) > magnitude(most.raw());
+    });
+    if (off * 5 > all.size()) return Status::not_found;
+    return RoundOutline{fit->circle, static_cast<int>((off * 100 + all.size() - 1) / all.size())};
 }
 
 namespace detail {

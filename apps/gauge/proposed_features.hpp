@@ -129,7 +129,10 @@ public:
     bool add(Feature feature, const std::string& name) {
         detail::copy_name(feature.name, name);
         feature.smoothing = smoothing_for(feature);
-        const std::vector<std::int64_t> values = values_of(feature);
+        std::vector<std::int64_t> values = values_of(feature);
+        const bool circle =
+            feature.kind == FeatureKind::diameter || feature.kind == FeatureKind::hole_diameter;
+        if (values.empty() && circle) values = values_with_outliers(feature, name);
         if (values.empty()) return false;
         const Spread spread = spread_of(values);
         feature.tolerance = proposed_tolerance(feature, recipe_.scale, spread, options_.tolerance);
@@ -140,6 +143,21 @@ public:
     }
 
 private:
+    /// The values of a circle of which a share is missing on the good parts, and sets how much may be: a
+    /// twentieth more than that, because other poses show more of it.
+    std::vector<std::int64_t> values_with_outliers(Feature& feature, const std::string& name) {
+        constexpr int most = 40;
+        for (int outliers = feature.outliers + 5; outliers <= most; outliers += 5) {
+            feature.outliers = outliers;
+            const std::vector<std::int64_t> values = values_of(feature);
+            if (values.empty()) continue;
+            feature.outliers += 5;
+            note(name + " is not round all around: damage is seen where it is more than " +
+                 std::to_string(feature.outliers) + " % of the edge (outliers)");
+            return values;
+        }
+        return {};
+    }
     /// The length between the edges of a feature, as far as it is known before it is measured.
     std::int64_t length_in(const Feature& feature) const {
         switch (feature.kind) {

@@ -113,16 +113,19 @@ private:
     }
 
     bool propose_round() {
-        const Result<CircleFit> fit = circle_of(outline_, scale_);
-        // Round: the contour stays within a fiftieth of the radius, two pixels at most.
-        if (!fit || fit->rms > std::min(fine_ratio(fit->circle.radius, 50), FinePixel::from_int(2)))
-            return false;
+        const Result<RoundOutline> round = circle_of(outline_, scale_);
+        if (!round) return false;
         Feature feature;
         feature.kind = FeatureKind::diameter;
-        feature.centre = part_point(fit->circle.centre, scale_);
-        feature.radius = multiply_divide(fit->circle.radius.raw(), scale_.x_per_pixel, FinePixel::one);
+        feature.centre = part_point(round->circle.centre, scale_);
+        feature.radius = multiply_divide(round->circle.radius.raw(), scale_.x_per_pixel, FinePixel::one);
         feature.search = std::min(feature.radius / 3, 8 * pixel_);
-        return features_.add(feature, "diameter");
+        if (!features_.add(feature, "diameter")) return false;
+        if (round->percent_off > 0)
+            features_.note(
+                std::to_string(round->percent_off) +
+                " % of the outline is off the circle (a notch, a flat, a tooth?): that is not measured");
+        return true;
     }
 
     /// The probe between two edges that face away from each other; nothing if they do not.
@@ -243,7 +246,10 @@ private:
         };
         std::vector<Rated> rated;
         for (const int eighths : {0, -1, 1, -2, 2, -3, 3, -4, 4, -5, 5, -6, 6}) {
-            const std::optional<Feature> feature = within_images(across_at(along_axis, eighths));
+            Feature across = across_at(along_axis, eighths);
+            std::optional<Feature> feature = within_images(across);
+            across.lines = 3;  // where the edge is round or short
+            if (!feature) feature = within_images(across);
             const std::optional<std::int64_t> slope = feature ? slope_of(*feature) : std::nullopt;
             if (slope) rated.push_back({*feature, *slope + std::abs(eighths) * pixel_ / 40});
         }
@@ -361,17 +367,20 @@ private:
             default: return "";
         }
     }
-    void propose_hole(Feature feature, bool round, const std::string& name) {
-        if (features_.values_of(feature).empty()) {
+    void propose_hole(const Feature& position, bool round, const std::string& name) {
+        Feature diameter = position;
+        diameter.kind = FeatureKind::hole_diameter;
+        const bool has_diameter = round && features_.add(diameter, name);
+        if (features_.values_of(position).empty()) {
+            const std::string what = has_diameter ? "its place" : "it";
             features_.note(name + (features_.turns() > 1 ? " lies elsewhere when the part is turned" +
-                                                               turn_text() + ": it is not measured"
+                                                               turn_text() + ": " + what + " is not measured"
                                                          : " is not found on every part"));
             return;
         }
-        const Feature position = feature;
-        feature.kind = FeatureKind::hole_diameter;
-        if (round && !features_.add(feature, name))
-            features_.note(name + " has no diameter: its edge is not seen as a circle on every part");
+        if (!has_diameter)
+            features_.note(name + (round ? " has no diameter: its edge is not seen as a circle on every part"
+                                         : " is not round: its size is not measured"));
         features_.add(position, name + "_position");
     }
 

@@ -289,6 +289,10 @@ inline const auto& recipe_keys() {
             show_feature<&F::probes>}
             .range(3, Feature::max_probes)
             .of(along_a_contour),
+        Key{"feature", "outliers", KeyType::integer, "share of the probes that may miss the circle",
+            load_feature<&F::outliers>, show_feature<&F::outliers>}
+            .range(0, 50, "percent")
+            .of(bit(FeatureKind::diameter) | bit(FeatureKind::hole_diameter)),
         Key{"feature", "smoothing", KeyType::integer,
             "along the probes; more for blur and noise, less for close edges", load_feature<&F::smoothing>,
             show_feature<&F::smoothing>}

@@ -81,6 +81,10 @@ inline std::string reason_of(const FeatureResult& result, const Feature& feature
         case Status::degenerate: return "no line or circle follows from the edges that were found";
         case Status::capacity_exceeded: return "too many edges along the probe";
         case Status::bad_argument: return "the probe is shorter than a pixel";
+        case Status::irregular:
+            return feature.kind == FeatureKind::diameter || feature.kind == FeatureKind::hole_diameter
+                       ? "the edge is not round: more probes than `outliers` allows miss the circle"
+                       : "the edge is not straight over the `lines` of the probe: a burr, a nick or a curve?";
         case Status::not_found: break;
         default: return describe(result.status);
     }
@@ -133,7 +137,9 @@ inline std::string human_part(const std::string& image, int index, const PartRes
     if (orientation != Status::ok) text += std::string(" (") + short_orientation_problem(orientation) + ")";
     const char* before = "  ";
     for (const bool ok : {false, true})
-        for (int i = 0; orientation == Status::ok && i < part.feature_count; ++i) {
+        for (int i = 0; i < part.feature_count; ++i) {
+            // Without direction only what has none is measured, and the reason stands in front.
+            if (orientation != Status::ok && part.features[i].status != Status::ok) continue;
             if ((part.features[i].verdict == Verdict::ok) != ok) continue;
             text += before + human_feature(part.features[i], recipe.features[i], recipe.scale);
             before = ", ";

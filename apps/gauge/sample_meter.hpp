@@ -41,7 +41,10 @@ public:
                             rule_,
                             sample.threshold,
                             scale_};
-        return measure_feature(view, feature, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())});
+        const Result<Measurement> found =
+            measure_feature(view, feature, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())});
+        if (found && !found->regular) return Status::irregular;
+        return found;
     }
 
     /// The values of a feature on every sample, the part turned as it is or further; empty if one of them has

@@ -9,6 +9,7 @@
 
 #include <fovea/measure/consensus.hpp>
 #include <fovea/measure/edge_probe.hpp>
+#include <fovea/measure/edge_straightness.hpp>
 #include <fovea/measure/fit_circle.hpp>
 #include <fovea/measure/fit_line.hpp>
 #include <fovea/measure/half_turn.hpp>
@@ -189,6 +190,30 @@ inline void measure_edge_probe(Workspace& work, Digest& digest) {
     probe(part, {here, there, {}, 0}, GrayLevel::from_int(5));
     probe(part, {here, there, {}, 1}, GrayLevel());
     digest.add(edge_probe_scratch({640, 480}));
+}
+
+inline void measure_edge_straightness(Workspace& work, Digest& digest) {
+    Arena arena(work.scratch_span());
+    const Span<std::uint16_t> profile =
+        arena.take<std::uint16_t>(edge_probe_scratch(Workspace::picture_size));
+    List<Edge, 12> edges;
+    const ImageView<Gray8> part = part_picture(work, 0);
+    Random random(19);
+    const auto place = [&] {
+        return FinePoint{FinePixel::from_raw(random.between(0, (part.width() - 1) * 65536)),
+                         FinePixel::from_raw(random.between(0, (part.height() - 1) * 65536))};
+    };
+    for (int i = 0; i < 60; ++i) {
+        EdgeProbe line{place(), place(), {}, random.between(1, 24)};
+        line.smoothing = i % 5 == 4 ? 3 : 1;
+        line.across = {FinePixel::from_raw(random.between(-20000, 20000)),
+                       FinePixel::from_raw(random.between(-20000, 20000))};
+        if (edge_probe(part, line, GrayLevel::from_int(10), profile, edges) != Status::ok) continue;
+        const List<Edge, 12> found = edges;
+        for (const Edge& edge : found) digest.add(edge_straightness(part, line, edge, profile, edges));
+    }
+    digest.add(edge_straightness(part, {place(), place(), {}, 0}, Edge(), profile, edges));
+    digest.add(straightness_reach(2));
 }
 
 /// Points near a line or a circle, some of them far off.

@@ -53,6 +53,7 @@ inline constexpr Vector vectors[] = {
     {"segment/level_contour", segment_level_contour},
     {"segment/runs", segment_runs},
     {"measure/edge_probe", measure_edge_probe},
+    {"measure/edge_straightness", measure_edge_straightness},
     {"measure/fit_circle", measure_fit_circle},
     {"measure/fit_line", measure_fit_line},
     {"measure/half_turn", measure_half_turn},

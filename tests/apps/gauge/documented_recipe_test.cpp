@@ -40,7 +40,7 @@ TEST(DocumentedRecipe, MeasuresThePlateThatMakePartRendersWithEveryKindOfFeature
     EXPECT_EQ(parts[0].verdict, Verdict::ok);
     // As the page prints it.
     EXPECT_EQ(apps::human_part("plate.png", 0, parts[0], file.recipe),
-              "plate.png part 0: OK  length 360.02 px, edge_to_hole 66.04 px, large_hole 60.00 px, "
+              "plate.png part 0: OK  length 360.02 px, edge_to_hole 66.04 px, large_hole 60.01 px, "
               "small_hole 36.00 px, holes 2, small_hole_place 0.03 px, corner 90.00 deg  "
               "[x 316.67, y 237.54 px, 15.54 deg]\n");
 }

@@ -203,16 +203,19 @@ TEST_F(GaugeCommand, SaysOnceThatThePartHasNoDirectionAndWhatToDo) {
     text.replace(text.find("\"symmetric\""), 11, "\"full\"\nends = [0, 0, 0, 0.5]");
     io.put("x.toml", text);
     EXPECT_EQ(run({"--job", "x.toml", "good.pgm"}), apps::exit_failed);
-    EXPECT_EQ(io.errors(),
-              "good.pgm part 0: which end of the part is which is undecided; it may be dirty, turned over or "
-              "another part, or "
-              "orientation = \"symmetric\" suits it\n");
-    EXPECT_EQ(io.out.compare(0, 45, "good.pgm part 0: NOT JUDGED (ends undecided) "), 0);
+    EXPECT_EQ(
+        io.errors(),
+        "good.pgm part 0: which end of the part is which is undecided; it may be damaged, dirty, turned "
+        "over or another part; if the ends of all parts are alike, orientation = \"symmetric\" measures "
+        "it\n");
+    EXPECT_EQ(io.out.find("good.pgm part 0: NOT JUDGED (ends undecided)  holes 2  ["), 0u) << io.out;
     io.put("disc.pgm", pgm_of(picture_of({160, 120}, {{shapes::disc(40), 80, 60}}, {}, 5)));
-    EXPECT_EQ(run({"--job", "r.toml", "disc.pgm"}), apps::exit_failed);
+    EXPECT_EQ(run({"--job", "r.toml", "disc.pgm"}), apps::exit_not_ok);
     EXPECT_EQ(io.errors(),
               "disc.pgm part 0: the part has no clear axis; orientation = \"none\" measures it as it lies, "
               "\"rotational\" by its symmetry\n");
+    // Holes can be counted however it lies.
+    EXPECT_EQ(io.out.find("disc.pgm part 0: NOT OK (no clear axis)  holes 0 LOW (least 2)  ["), 0u) << io.out;
 }
 
 // ---- Several parts and pictures ----------------------------------------------------------------

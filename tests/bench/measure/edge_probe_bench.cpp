@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fovea/measure/edge_probe.hpp>
+#include <fovea/measure/edge_straightness.hpp>
 #include <fovea/measure/fit_circle.hpp>
 #include <fovea/measure/fit_line.hpp>
 #include <fovea/number/trigonometry.hpp>
@@ -10,25 +11,33 @@
 namespace fovea::bench {
 namespace {
 
-void time_probe(Row& row, int lines) {
-    row.not_per_pixel();
-    auto& src = row.keep(part(row.size()));
-    auto& scratch =
-        row.keep(std::vector<std::uint16_t>(static_cast<std::size_t>(edge_probe_scratch(row.size()))));
-    auto& edges = row.keep(List<Edge, 32>());
-    // Straight through the plate's outline and back out, 100 px, slanted.
-    const golden::Plate plate = plate_in(row.size());
+/// Straight through the plate's outline and back out, 100 px, slanted.
+EdgeProbe probe_in(Size size, int lines) {
+    const golden::Plate plate = plate_in(size);
     const FinePoint edge = plate.to_image(0, golden::Plate::half_height);
     const auto shifted = [](FinePoint place, int x, int y) {
         return FinePoint{place.x + FinePixel::from_int(x), place.y + FinePixel::from_int(y)};
     };
-    const EdgeProbe probe{shifted(edge, 15, -48),
-                          shifted(edge, -15, 48),
-                          {FinePixel::from_ratio(95, 100), FinePixel::from_ratio(31, 100)},
-                          lines};
-    row.ours([&, probe] {
-        consume(edge_probe(src.view(), probe, GrayLevel::from_int(20),
-                           {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}, edges));
+    return {shifted(edge, 15, -48),
+            shifted(edge, -15, 48),
+            {FinePixel::from_ratio(95, 100), FinePixel::from_ratio(31, 100)},
+            lines};
+}
+
+struct Probing {
+    std::vector<std::uint16_t> scratch;
+    List<Edge, 32> edges;
+
+    explicit Probing(Size size) : scratch(static_cast<std::size_t>(edge_probe_scratch(size))) {}
+    Span<std::uint16_t> profile() { return {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}; }
+};
+
+void time_probe(Row& row, int lines) {
+    row.not_per_pixel();
+    auto& src = row.keep(part(row.size()));
+    auto& room = row.keep(Probing(row.size()));
+    row.ours([&, probe = probe_in(row.size(), lines)] {
+        consume(edge_probe(src.view(), probe, GrayLevel::from_int(20), room.profile(), room.edges));
     });
 }
 
@@ -36,6 +45,16 @@ const bool one_line_added =
     add(50, "edge probe, 100 px, 1 line", Sizes::vga, [](Row& row) { time_probe(row, 1); });
 const bool many_lines_added =
     add(51, "edge probe, 100 px, 15 lines", Sizes::vga, [](Row& row) { time_probe(row, 15); });
+const bool straightness_added = add(51, "edge straightness, 15 lines", Sizes::vga, [](Row& row) {
+    row.not_per_pixel();
+    auto& src = row.keep(part(row.size()));
+    auto& room = row.keep(Probing(row.size()));
+    const EdgeProbe probe = probe_in(row.size(), 15);
+    consume(edge_probe(src.view(), probe, GrayLevel::from_int(20), room.profile(), room.edges));
+    row.ours([&, probe, edge = room.edges.empty() ? Edge() : room.edges[0]] {
+        consume(edge_straightness(src.view(), probe, edge, room.profile(), room.edges));
+    });
+});
 
 struct Points {
     std::vector<FinePoint> points;

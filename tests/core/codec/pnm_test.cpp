@@ -63,18 +63,29 @@ TEST(PnmReader, ReadsTheHigherByteFirst) {
 }
 
 TEST(PnmReader, ScalesMaxvalToTheBrightestLevel) {
-    // Of 100: 0, 1, 50, 100, and 101, which counts as 100.
-    const Bytes file = pnm("P5 5 1 100\n", {0, 1, 50, 100, 101});
-    GuardedImage<Gray8> gray({5, 1});
+    const Bytes file = pnm("P5 4 1 100\n", {0, 1, 50, 100});
+    GuardedImage<Gray8> gray({4, 1});
     ASSERT_EQ(decode_pnm(view_of(file), gray.view()), Status::ok);
     // 2.55 is nearest to 3, 127.5 goes up.
-    const int expected[] = {0, 3, 128, 255, 255};
-    for (int x = 0; x < 5; ++x) EXPECT_EQ(gray(x, 0), expected[x]);
-    GuardedImage<Gray16> wide({5, 1});
+    const int expected[] = {0, 3, 128, 255};
+    for (int x = 0; x < 4; ++x) EXPECT_EQ(gray(x, 0), expected[x]);
+    GuardedImage<Gray16> wide({4, 1});
     ASSERT_EQ(decode_pnm(view_of(file), wide.view()), Status::ok);
     // 655.35 and 32767.5.
-    const int expected_wide[] = {0, 655, 32768, 65535, 65535};
-    for (int x = 0; x < 5; ++x) EXPECT_EQ(wide(x, 0), expected_wide[x]);
+    const int expected_wide[] = {0, 655, 32768, 65535};
+    for (int x = 0; x < 4; ++x) EXPECT_EQ(wide(x, 0), expected_wide[x]);
+}
+
+TEST(PnmReader, RefusesSamplesAboveMaxvalBeforeItWritesAPixel) {
+    for (const Bytes& file : {pnm("P5 2 1 100\n", {0, 101}), pnm("P5 2 1 300\n", {0, 1, 1, 45}),
+                              pnm("P6 1 1 7\n", {7, 8, 7}), pnm("P5 2 1 254\n", {0, 255})}) {
+        GuardedImage<Gray8> dst(inspect_pnm(view_of(file))->size);
+        fill_bytes(dst.view(), 77);
+        EXPECT_EQ(decode_pnm(view_of(file), dst.view()), Status::malformed);
+        EXPECT_TRUE(all_bytes_are(dst.view(), 77));
+    }
+    GuardedImage<Gray8> most({2, 1});
+    EXPECT_EQ(decode_pnm(view_of(pnm("P5 2 1 300\n", {0, 1, 1, 44})), most.view()), Status::ok);
 }
 
 TEST(PnmReader, TurnsEveryContentIntoEveryPixel) {
@@ -133,7 +144,7 @@ TEST(PnmReader, SaysWhyItRefusesAHeader) {
 
 TEST(PnmReader, LeavesTheOutputWhenAnythingIsMissing) {
     for (const Bytes& file :
-         {pnm("P5 3 2 255\n", {1, 2, 3, 4, 5, 6}), pnm("P5 3 1 999\n", {1, 2, 3, 4, 5, 6}),
+         {pnm("P5 3 2 255\n", {1, 2, 3, 4, 5, 6}), pnm("P5 3 1 2000\n", {1, 2, 3, 4, 5, 6}),
           pnm("P6 1 2 255\n", {1, 2, 3, 4, 5, 6})}) {
         const Size size = inspect_pnm(view_of(file))->size;
         for (std::size_t length = 0; length < file.size(); ++length) {

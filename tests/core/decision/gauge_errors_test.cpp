@@ -121,6 +121,43 @@ TEST(GaugeVerdict, IsUnmeasuredWhileTheOrientationIsNotCertain) {
     }
 }
 
+TEST(GaugeVerdict, CountsHolesHoweverThePartLies) {
+    const GuardedImage<Gray8> image = plate_picture();
+    Recipe recipe = plate_recipe();
+    recipe.locate.orientation = OrientationRule::full;
+    Feature holes;
+    holes.kind = FeatureKind::hole_count;
+    ASSERT_EQ(recipe.features.push(holes), Status::ok);
+    const PartResult part = run(image.view(), recipe).parts.at(0);
+    EXPECT_EQ(part.features[2].verdict, Verdict::ok);
+    EXPECT_EQ(part.verdict, Verdict::unmeasured) << "the rest is not measured";
+    recipe.features[2].tolerance.nominal = Decimal::from_int(1);
+    const PartResult lacking = run(image.view(), recipe).parts.at(0);
+    EXPECT_EQ(lacking.pose.orientation, Status::undecided);
+    EXPECT_EQ(lacking.features[2].verdict, Verdict::low);
+    EXPECT_EQ(lacking.verdict, Verdict::not_ok);
+}
+
+TEST(GaugeVerdict, IsNotOkByAnEdgeThatIsNotStraight) {
+    GuardedImage<Gray8> image = plate_picture();
+    Recipe recipe = plate_recipe();
+    recipe.features[0].tolerance = {Decimal::from_int(40), Decimal::from_int(9), Decimal::from_int(9)};
+    recipe.features[1].tolerance = recipe.features[0].tolerance;
+    recipe.features[1].tolerance.nominal = Decimal::from_int(20);
+    EXPECT_EQ(run(image.view(), recipe).parts.at(0).verdict, Verdict::ok);
+    // A burr of 5 px under some of the lines.
+    for (int y = 24; y < 28; ++y)
+        for (int x = 52; x < 57; ++x) image(x, y) = image(30, 24);
+    const PartResult part = run(image.view(), recipe).parts.at(0);
+    EXPECT_EQ(part.features[0].status, Status::irregular);
+    EXPECT_EQ(part.features[0].verdict, Verdict::unmeasured);
+    EXPECT_EQ(part.verdict, Verdict::unmeasured);
+    recipe.features[0].tolerance.nominal = Decimal::from_int(60);
+    const PartResult small = run(image.view(), recipe).parts.at(0);
+    EXPECT_EQ(small.features[0].verdict, Verdict::low) << "what is bad as well says more";
+    EXPECT_EQ(small.features[0].status, Status::ok);
+}
+
 TEST(GaugeErrors, LeaveTheListAsItWas) {
     const GuardedImage<Gray8> image = plate_picture();
     EXPECT_EQ(refusal({}, plate_recipe()), Status::empty_image);

@@ -95,6 +95,14 @@ protected:
         return feature;
     }
 
+    /// Makes the pixels around a place of the part as dark as it is.
+    void darken(double x, double y, int half_width, int half_height) {
+        const int column = static_cast<int>(std::lround(middle_x + x));
+        const int row = static_cast<int>(std::lround(middle_y + y));
+        for (int j = -half_height; j <= half_height; ++j)
+            for (int i = -half_width; i <= half_width; ++i) picture_(column + i, row + j) = 30;
+    }
+
     GuardedImage<Gray8> picture_;
     List<Region, 2> regions_;
     List<Hole, 4> holes_;
@@ -182,6 +190,42 @@ TEST_F(MeasureFeature, FollowsTheScaleOfTheImage) {
     for (PartPoint* p : {&angle.from, &angle.to, &angle.second_from, &angle.second_to}) *p = mm(*p);
     angle.search /= 50;
     EXPECT_NEAR(measured(angle), 90, 0.2);
+}
+
+TEST_F(MeasureFeature, SaysThatAnEdgeIsNotStraightUnderTheLinesOfItsProbe) {
+    Feature across = probe(FeatureKind::width, at(-54, 0), at(55, 0));
+    across.lines = 15;
+    EXPECT_TRUE(measure(across)->regular);
+    darken(42, 4, 4, 3);  // a burr of 6 px on the right edge, under 7 of 15 lines
+    for (const FeatureKind kind : {FeatureKind::width, FeatureKind::distance}) {
+        across.kind = kind;
+        EXPECT_FALSE(measure(across)->regular);
+    }
+    across.from = at(-54, -12);
+    across.to = at(55, -12);
+    EXPECT_TRUE(measure(across)->regular) << "beside the burr";
+    across.from = at(-54, 19);
+    across.to = at(55, 19);
+    EXPECT_FALSE(measure(across)->regular) << "half of the lines miss the part";
+    across.smoothing = 8;
+    EXPECT_TRUE(measure(probe(FeatureKind::width, at(-10, -35), at(-10, 35)))->regular);
+}
+
+TEST_F(MeasureFeature, SaysThatACircleIsNotRoundAllAround) {
+    Feature circle = around(FeatureKind::diameter, at(20, 0));
+    EXPECT_TRUE(measure(circle)->regular);
+    circle.outliers = 0;
+    EXPECT_TRUE(measure(circle)->regular);
+    darken(12, 0, 3, 3);  // a burr of 3 px, 7 px wide, in the hole: 6.7 of 48 probes
+    const Result<Measurement> found = measure(circle);
+    EXPECT_FALSE(found->regular);
+    EXPECT_NEAR(value_of(*found), 16, 0.2) << "of the rest, as before";
+    circle.outliers = 5;
+    EXPECT_FALSE(measure(circle)->regular);
+    circle.outliers = 25;
+    EXPECT_TRUE(measure(circle)->regular);
+    circle.outliers = 51;
+    EXPECT_EQ(measure(circle).status(), Status::bad_argument);
 }
 
 TEST_F(MeasureFeature, SaysThatAProbeOrAPlaceLeavesTheImage) {

@@ -112,6 +112,29 @@ TEST(FitCircleRobust, IgnoresAThirdOfWrongPoints) {
     }
 }
 
+TEST(FitCircleRobust, TakesAllPointsWhereAllAreWithinItsLimit) {
+    // An ellipse of 20.6 x 19.4.
+    std::vector<FinePoint> points;
+    for (int i = 0; i < 48; ++i)
+        points.push_back(fine(100 + 20.6 * std::cos(i * pi / 24), 100 + 19.4 * std::sin(i * pi / 24)));
+    std::vector<FinePixel> scratch(points.size());
+    const Span<FinePixel> room(scratch.data(), static_cast<std::ptrdiff_t>(scratch.size()));
+    const Result<CircleFit> all = fit_circle_robust(span_of(points), room, FinePixel::from_ratio(61, 100));
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->used, 48);
+    EXPECT_NEAR(real(all->circle.radius), 20, 0.01);
+    EXPECT_NEAR(real(all->circle.centre.x), 100, 0.01);
+    const Result<CircleFit> some = fit_circle_robust(span_of(points), room, FinePixel::from_ratio(1, 10));
+    ASSERT_TRUE(some);
+    EXPECT_LT(some->used, 48);
+    // A point far off is none of them.
+    points[7] = fine(104, 103);
+    const Result<CircleFit> others = fit_circle_robust(span_of(points), room, FinePixel::from_int(1));
+    ASSERT_TRUE(others);
+    EXPECT_LT(others->used, 48);
+    EXPECT_NEAR(real(others->circle.radius), 20, 0.6);
+}
+
 TEST(FitCircle, SaysWhatIsWrong) {
     const std::vector<FinePoint> two = {fine(1, 1), fine(2, 1)};
     const std::vector<FinePoint> row = {fine(1, 1), fine(2, 1), fine(3, 1), fine(9, 1)};

@@ -29,6 +29,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     malformed,          ///< foreign bytes contradict their format
     unsupported,        ///< a valid format or variant that this library does not read
     io_error,           ///< the system refused; ports tell more
+    irregular,          ///< there is something, of another shape than what is measured
 };
 
 /// One lower-case phrase for messages, without a full stop.
@@ -51,6 +52,7 @@ constexpr const char* describe(Status status) {
         case Status::malformed: return "the data contradict their format";
         case Status::unsupported: return "this variant of the format is not supported";
         case Status::io_error: return "the system refused the operation";
+        case Status::irregular: return "not of the shape that is measured";
     }
     return "unknown status";
 }

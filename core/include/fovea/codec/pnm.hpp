@@ -31,10 +31,10 @@ inline Result<PictureInfo> inspect_pnm(Span<const std::uint8_t> bytes);
 /// The picture of a PGM or PPM file, the first one if several follow each other.
 ///
 /// Shapes    dst as large as the picture
-/// Units     maxval becomes 255 (Gray8, Rgb888) or 65535 (Gray16); samples above maxval count as maxval
+/// Units     maxval becomes 255 (Gray8, Rgb888) or 65535 (Gray16)
 /// Rounding  nearest, ties up; brightness of colours as gray_of()
-/// Errors    empty_image, all of inspect_pnm(), size_mismatch, truncated when samples are missing; all found
-///           before the first pixel is written
+/// Errors    empty_image, all of inspect_pnm(), size_mismatch, truncated when samples are missing, malformed
+///           for a sample above maxval; all found before the first pixel is written
 /// Source    as inspect_pnm()
 template <class Pixel>
 Status decode_pnm(Span<const std::uint8_t> bytes, ImageView<Pixel> dst);
@@ -122,6 +122,18 @@ inline Result<PnmHeader> pnm_header(Span<const std::uint8_t> bytes) {
     return header;
 }
 
+/// True if no sample is above maxval.
+inline bool pnm_samples_fit(const PnmHeader& header, const std::uint8_t* from) {
+    if (header.most == 255 || header.most == 65535) return true;
+    const std::int64_t bytes = std::int64_t{header.row_bytes()} * header.size.height;
+    for (std::int64_t i = 0; i < bytes; i += header.sample_bytes()) {
+        const std::uint32_t sample =
+            header.sample_bytes() == 1 ? from[i] : static_cast<std::uint32_t>(from[i] << 8 | from[i + 1]);
+        if (sample > header.most) return false;
+    }
+    return true;
+}
+
 /// One row. SampleBytes is 1 or 2, the higher byte first.
 template <int SampleBytes, class Pixel>
 void pnm_row(const PnmHeader& header, const std::uint8_t* from, Pixel* to) {
@@ -204,6 +216,7 @@ Status decode_pnm(Span<const std::uint8_t> bytes, ImageView<Pixel> dst) {
     if (bytes.size() - header->raster < std::int64_t{header->row_bytes()} * dst.height())
         return Status::truncated;
     const std::uint8_t* from = bytes.data() + header->raster;
+    if (!detail::pnm_samples_fit(*header, from)) return Status::malformed;
     for (int y = 0; y < dst.height(); ++y, from += header->row_bytes()) {
         if (header->sample_bytes() == 1)
             detail::pnm_row<1>(*header, from, dst.row(y));

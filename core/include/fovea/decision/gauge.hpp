@@ -73,15 +73,22 @@ inline void measure_part(const PartView& view, const Recipe& recipe, Span<std::u
     part.feature_count = recipe.features.size();
     part.verdict = part.pose.orientation == Status::ok ? Verdict::ok : Verdict::unmeasured;
     for (int i = 0; i < recipe.features.size(); ++i) {
+        const Feature& feature = recipe.features[i];
         FeatureResult& result = part.features[i];
         result = FeatureResult();
         result.status = part.pose.orientation;
-        if (part.pose.orientation == Status::ok) {
-            const Result<Measurement> measured = measure_feature(view, recipe.features[i], scratch);
+        // A number of holes is the same however the part lies.
+        if (part.pose.orientation == Status::ok || feature.kind == FeatureKind::hole_count) {
+            const Result<Measurement> measured = measure_feature(view, feature, scratch);
             result.status = measured.status();
             if (measured) {
                 result.measurement = *measured;
-                result.verdict = judge(measured->value, recipe.features[i].tolerance);
+                result.verdict = judge(measured->value, feature.tolerance);
+            }
+            // Of another shape than what is measured, no value is OK; one that is bad says more.
+            if (measured && !measured->regular && result.verdict == Verdict::ok) {
+                result.status = Status::irregular;
+                result.verdict = Verdict::unmeasured;
             }
         }
         part.verdict = combine(part.verdict, result.verdict);

@@ -56,7 +56,7 @@ constexpr bool feature_in_range(const Feature& feature) {
     return place(feature.from) && place(feature.to) && place(feature.second_from) &&
            place(feature.second_to) && place(feature.centre) && length(feature.radius) &&
            length(feature.search) && within(feature.lines, 1, max_probe_lines) &&
-           within(feature.probes, 3, Feature::max_probes) &&
+           within(feature.probes, 3, Feature::max_probes) && within(feature.outliers, 0, 50) &&
            within(feature.smoothing, 1, max_probe_smoothing) && within(feature.contrast_min, 0, 255) &&
            within(tolerance.nominal.millionths, -max_part_coordinate, max_part_coordinate) &&
            length(tolerance.minus.millionths) && length(tolerance.plus.millionths);

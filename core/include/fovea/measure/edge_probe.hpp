@@ -153,12 +153,28 @@ inline bool probe_fits(Size size, const EdgeProbe& probe) {
     return true;
 }
 
+/// Samples of a probe with those beyond its ends.
+constexpr int probe_samples_of(int steps) { return steps + 2 * probe_margin + 1; }
+
+/// What edge_probe() asks of its arguments.
+inline Status check_edge_probe(ImageView<const Gray8> src, const EdgeProbe& probe, GrayLevel strength_min,
+                               Span<std::uint16_t> scratch) {
+    if (src.empty()) return Status::empty_image;
+    if (probe.lines < 1 || probe.lines > max_probe_lines || strength_min.raw() <= 0)
+        return Status::bad_argument;
+    if (probe.smoothing < 1 || probe.smoothing > max_probe_smoothing) return Status::bad_argument;
+    if (!probe_fits(src.size(), probe)) return Status::out_of_range;
+    const int steps = probe_steps(probe);
+    if (steps == 0) return Status::bad_argument;
+    return scratch.size() < probe_samples_of(steps) ? Status::scratch_too_small : Status::ok;
+}
+
 inline void sample_probe(ImageView<const Gray8> src, const EdgeProbe& probe, int steps,
                          Span<std::uint16_t> samples) {
     // 1/2^32 px a step, so that the sum over all steps stays below 1/65536 px of error.
     const std::int64_t step_x = (std::int64_t{probe.to.x.raw()} - probe.from.x.raw()) * 65536 / steps;
     const std::int64_t step_y = (std::int64_t{probe.to.y.raw()} - probe.from.y.raw()) * 65536 / steps;
-    for (int i = 0; i < steps + 2 * probe_margin + 1; ++i) {
+    for (int i = 0; i < probe_samples_of(steps); ++i) {
         const std::int64_t along_x = round_shift(step_x * (i - probe_margin), 16);
         const std::int64_t along_y = round_shift(step_y * (i - probe_margin), 16);
         std::uint32_t sum = 0;  // 255 lines of 255 levels with 16 fraction bits fit
@@ -249,15 +265,9 @@ constexpr int edge_probe_scratch(Size size) {
 
 inline Status edge_probe(ImageView<const Gray8> src, const EdgeProbe& probe, GrayLevel strength_min,
                          Span<std::uint16_t> scratch, ListView<Edge> edges) {
-    if (src.empty()) return Status::empty_image;
-    if (probe.lines < 1 || probe.lines > max_probe_lines || strength_min.raw() <= 0)
-        return Status::bad_argument;
-    if (probe.smoothing < 1 || probe.smoothing > max_probe_smoothing) return Status::bad_argument;
-    if (!detail::probe_fits(src.size(), probe)) return Status::out_of_range;
+    if (Status s = detail::check_edge_probe(src, probe, strength_min, scratch); s != Status::ok) return s;
     const int steps = detail::probe_steps(probe);
-    if (steps == 0) return Status::bad_argument;
-    const int samples = steps + 2 * detail::probe_margin + 1;
-    if (scratch.size() < samples) return Status::scratch_too_small;
+    const int samples = detail::probe_samples_of(steps);
 
     detail::sample_probe(src, probe, steps, scratch);
     const detail::Profile profile(scratch.first(samples), steps);

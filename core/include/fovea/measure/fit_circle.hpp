@@ -53,10 +53,14 @@ constexpr Result<CircleFit> fit_circle(Span<const FinePoint> points);
 
 /// The same for the points that a circle through most of them agrees with, whatever the others are.
 ///
-/// Scratch  one element a point, undefined afterwards
-/// Errors   also scratch_too_small
-/// Source   least_median(), then two fits to the points within its limit
-inline Result<CircleFit> fit_circle_robust(Span<const FinePoint> points, Span<FinePixel> scratch);
+/// limit_min  up to this distance a point agrees, however near the others are. If all points are so near to
+///            the circle through all, it is that one: with more than the noise, points that are not quite
+///            round have the circle of all of them and not of some
+/// Scratch    one element a point, undefined afterwards
+/// Errors     also scratch_too_small
+/// Source     least_median(), then two fits to the points within its limit
+inline Result<CircleFit> fit_circle_robust(Span<const FinePoint> points, Span<FinePixel> scratch,
+                                           FinePixel limit_min = FinePixel());
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -228,21 +232,30 @@ constexpr Result<CircleFit> fit_circle(Span<const FinePoint> points) {
     return detail::fit_circle_to(points, *start, [](FinePoint) { return true; });
 }
 
-inline Result<CircleFit> fit_circle_robust(Span<const FinePoint> points, Span<FinePixel> scratch) {
+inline Result<CircleFit> fit_circle_robust(Span<const FinePoint> points, Span<FinePixel> scratch,
+                                           FinePixel limit_min) {
     if (points.size() > max_fit_points) return Status::bad_argument;
+    if (scratch.size() < points.size()) return Status::scratch_too_small;
     const auto through = [](Span<const FinePoint> three) {
         return circle_through(three[0], three[1], three[2]);
     };
     const auto distance = [](const Circle& circle, FinePoint point) {
         return detail::without_sign(distance_from(circle, point));
     };
+    if (limit_min.raw() > 0) {
+        const Result<CircleFit> all = fit_circle(points);
+        bool agree = all.ok();
+        for (const FinePoint point : points) agree = agree && distance(all->circle, point) <= limit_min;
+        if (agree) return all;
+    }
     const auto start = least_median<3, Circle>(points, through, distance, scratch);
     if (!start) return start.status();
+    const FinePixel limit = maximum(start->limit, limit_min);
     Result<CircleFit> fit = CircleFit{start->model, FinePixel(), 0};
     for (int round = 0; round < 2 && fit; ++round) {
         const Circle circle = fit->circle;
         fit = detail::fit_circle_to(points, circle,
-                                    [&](FinePoint point) { return distance(circle, point) <= start->limit; });
+                                    [&](FinePoint point) { return distance(circle, point) <= limit; });
     }
     return fit;
 }
