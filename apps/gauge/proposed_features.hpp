@@ -147,9 +147,9 @@ private:
     /// twentieth more than that, because other poses show more of it.
     std::vector<std::int64_t> values_with_outliers(Feature& feature, const std::string& name) {
         constexpr int most = 40;
-        for (int outliers = feature.outliers + 5; outliers <= most; outliers += 5) {
+        for (int outliers = 5; outliers <= most; outliers += 5) {
             feature.outliers = outliers;
-            const std::vector<std::int64_t> values = values_of(feature);
+            std::vector<std::int64_t> values = values_of(feature);
             if (values.empty()) continue;
             feature.outliers += 5;
             note(name + " is not round all around: damage is seen where it is more than " +

@@ -49,7 +49,8 @@ TEST(Damage, OfTheEdgeOfAHoleIsNeverOk) {
                 return std::hypot(u / (15 + e), v / (15 - e)) <= 1;
             };
             const Shape plain = with(plate(), disc(17), 50, -2);
-            EXPECT_NE(verdicts_of(lying(without(plain, oval, 50, -2), 7, 840), recipe_of_the_plate()), "ok")
+            EXPECT_EQ(verdicts_of(lying(without(plain, oval, 50, -2), 7, 840), recipe_of_the_plate()),
+                      "unmeasured hole_2:unmeasured")
                 << e << " " << i;
         }
     }
@@ -78,8 +79,8 @@ TEST(Damage, OfAWasherWithANotchIsMeasuredRoundAboutIt) {
     EXPECT_EQ(taught.problem, "");
     ASSERT_NE(feature_named(taught.recipe, "diameter"), nullptr);
     ASSERT_NE(feature_named(taught.recipe, "hole_1"), nullptr);
-    EXPECT_GT(feature_named(taught.recipe, "diameter")->outliers, 5);
-    EXPECT_EQ(feature_named(taught.recipe, "hole_1")->outliers, 5);
+    EXPECT_GT(feature_named(taught.recipe, "diameter")->outliers, 9);
+    EXPECT_EQ(feature_named(taught.recipe, "hole_1")->outliers, 4);
     EXPECT_NEAR(nominal_of(taught.recipe, "diameter"), 180, 0.05);
     const bool told = std::any_of(taught.notes.begin(), taught.notes.end(), [](const std::string& note) {
         return note.compare(0, 36, "diameter is not round all around: da") == 0;

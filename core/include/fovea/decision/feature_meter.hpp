@@ -270,7 +270,7 @@ inline Result<Measurement> FeatureMeter::circle(PartPoint centre, std::int64_t r
         result.marks[0] = place;
         result.mark_count = 1;
     }
-    result.regular = round_;
+    if (!round_) return Status::irregular;
     return result;
 }
 

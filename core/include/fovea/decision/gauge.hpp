@@ -46,8 +46,10 @@ constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int part
 
 /// Measures every part in an image.
 ///
-/// A part whose orientation is not certain is listed, with its features unmeasured: its probes would stand
-/// anywhere. So is a feature whose probes leave the image or meet no edge. Nothing unmeasured is ever OK.
+/// A part whose orientation is not certain is listed, with its features unmeasured but for the number of
+/// holes: its probes would stand anywhere. So is a feature whose probes leave the image or meet no edge, and
+/// with the status irregular one whose value would be OK but whose edges are not straight or round. Nothing
+/// unmeasured is ever OK.
 ///
 /// Shapes   image 1x1 to max_moment_side squared
 /// Order    parts by their first pixel, row by row; features as in the recipe

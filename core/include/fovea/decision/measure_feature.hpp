@@ -33,8 +33,8 @@ constexpr std::int64_t measure_feature_scratch(Size size);
 ///   hole_count     the number of holes
 ///
 /// The result is regular if each edge of a distance or a width is straight over the lines of the probe
-/// (edge_straightness()), and if of the probes of a circle no more than the share `outliers` meet no edge or
-/// one off the circle, both up to `smoothing` pixels.
+/// (edge_straightness()). Of the probes of a circle no more than the share `outliers` may meet no edge or one
+/// off the circle: else it is irregular and has no diameter. Both up to `smoothing` pixels.
 ///
 /// A round edge is seen nearer to its centre than it is, by half its blur's variance over its radius; circles
 /// are corrected for that.
@@ -42,7 +42,7 @@ constexpr std::int64_t measure_feature_scratch(Size size);
 /// Scratch  measure_feature_scratch(), undefined afterwards
 /// Errors   out_of_range if a probe or a place leaves the image; not_found if there are fewer edges than
 ///          asked for, less than half of the probes see one, or no hole is within the search; degenerate if
-///          no line or circle follows from the edges; bad_argument
+///          no line or circle follows from the edges; irregular for a circle that is not round; bad_argument
 ///          for a feature out of its range; capacity_exceeded for more than 64 edges along a probe;
 ///          scratch_too_small
 /// Source   book sec. 6.2.2. Blurred discs: the derivative of exp(-(r^2 + R^2) / 2s^2) I0(r R / s^2) has its

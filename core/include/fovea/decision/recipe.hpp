@@ -105,7 +105,7 @@ struct Feature {
         0;             ///< how far from the expected edge or place is looked, in millionths of the unit
     int lines = 15;    ///< distance, width: parallel lines that are averaged, one pixel apart
     int probes = 48;   ///< diameter, hole_diameter, angle: probes along the contour; 3..max_probes
-    int outliers = 5;  ///< diameter, hole_diameter: percent of the probes that may meet something else; 0..50
+    int outliers = 4;  ///< diameter, hole_diameter: percent of the probes that may meet something else; 0..50
     int smoothing = 1;  ///< along every probe, in pixels, see EdgeProbe
     int contrast_min =
         0;               ///< the least step of an edge in grey levels; 0 is a quarter of that of the outline
