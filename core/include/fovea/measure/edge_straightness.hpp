@@ -23,15 +23,15 @@ namespace fovea {
 
 /// How far an edge that edge_probe() found strays from straight over the lines of the probe.
 ///
-/// The lines are taken in groups of neighbours: three to sixteen groups, of four to seven lines where there
-/// are enough. In each the edge is sought anew, of the same sense, near its place: of those at least half as
-/// strong as the strongest the nearest one. The result is the largest distance along the probe of these edges
-/// from the straight line fitted to them, which may run aslant; a group without an edge counts as
+/// The lines are taken in groups of neighbours: three to sixteen groups, of four or five lines where there
+/// are 12 to 64. In each the edge is sought anew, of the same sense, near its place: of those at least half
+/// as strong as the strongest the nearest one. The result is the largest distance along the probe of these
+/// edges from the straight line fitted to them, which may run aslant; a group without an edge counts as
 /// straightness_reach() away.
 ///
 /// Shapes    as edge_probe(); 0 for a probe of less than three lines
-/// Units     pixels, 0 or more. A step of s pixels over half of the lines gives about s / 4, over a fifth of
-///           them up to s / 2; a round edge of the radius R about lines^2 / (12 R)
+/// Units     pixels, 0 or more. A step of s pixels over whole groups gives 0.3 s or more; a round edge of the
+///           radius R nearly lines^2 / (12 R), less the fewer groups there are
 /// Rounding  to 1/65536 px
 /// Scratch   as edge_probe(), and room for a few edges; both undefined afterwards
 /// Errors    as edge_probe(); a full list of edges is none
