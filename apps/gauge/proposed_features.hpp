@@ -73,6 +73,15 @@ public:
         return smoothing;
     }
 
+    /// Places the probes around a circle four pixels apart as far as it goes, and lets one of them miss it.
+    void set_probes(Feature& circle, std::int64_t radius) const {
+        const Feature usual;
+        circle.probes = static_cast<int>(
+            std::clamp<std::int64_t>(radius * 157 / 100 / pixel_, usual.probes, Feature::max_probes));
+        circle.outliers =
+            circle.probes == usual.probes ? usual.outliers : (99 + circle.probes) / circle.probes;
+    }
+
     /// True if a recipe can hold so many more; else notes that there is more to measure, once.
     bool room_for(int count) {
         if (count <= Recipe::max_features - recipe_.features.size()) return true;
@@ -129,10 +138,10 @@ public:
     bool add(Feature feature, const std::string& name) {
         detail::copy_name(feature.name, name);
         feature.smoothing = smoothing_for(feature);
-        std::vector<std::int64_t> values = values_of(feature);
         const bool circle =
             feature.kind == FeatureKind::diameter || feature.kind == FeatureKind::hole_diameter;
-        if (values.empty() && circle) values = values_with_outliers(feature, name);
+        const std::vector<std::int64_t> values =
+            circle ? values_of_circle(feature, name) : values_of(feature);
         if (values.empty()) return false;
         const Spread spread = spread_of(values);
         feature.tolerance = proposed_tolerance(feature, recipe_.scale, spread, options_.tolerance);
@@ -143,20 +152,22 @@ public:
     }
 
 private:
-    /// The values of a circle of which a share is missing on the good parts, and sets how much may be: a
+    /// The values of a circle. If a share of it is missing on the good parts, sets how much may be: a
     /// twentieth more than that, because other poses show more of it.
-    std::vector<std::int64_t> values_with_outliers(Feature& feature, const std::string& name) {
+    std::vector<std::int64_t> values_of_circle(Feature& feature, const std::string& name) {
+        Feature whole = feature;
+        whole.outliers = 0;
+        std::vector<std::int64_t> values = values_of(whole);
         constexpr int most = 40;
-        for (int outliers = 5; outliers <= most; outliers += 5) {
+        for (int outliers = feature.outliers; values.empty() && outliers <= most; outliers += 5) {
             feature.outliers = outliers;
-            std::vector<std::int64_t> values = values_of(feature);
+            values = values_of(feature);
             if (values.empty()) continue;
             feature.outliers += 5;
             note(name + " is not round all around: damage is seen where it is more than " +
                  std::to_string(feature.outliers) + " % of the edge (outliers)");
-            return values;
         }
-        return {};
+        return values;
     }
     /// The length between the edges of a feature, as far as it is known before it is measured.
     std::int64_t length_in(const Feature& feature) const {

@@ -14,6 +14,7 @@
 #include <fovea/number/int128.hpp>
 #include <fovea/number/trigonometry.hpp>
 
+#include <gauge/hole_proposer.hpp>
 #include <gauge/outline.hpp>
 #include <gauge/proposed_features.hpp>
 #include <gauge/sample_meter.hpp>
@@ -64,7 +65,7 @@ private:
             extent_.bottom = std::max(extent_.bottom, other.bottom);
         }
         edges_ = straight_edges(outline_, scale_);
-        const bool round = propose_round();
+        const bool round = propose_round() && (all_round_ || rule_.orientation == OrientationRule::none);
         if (!round && rule_.orientation == OrientationRule::none) {
             features_.note(
                 "the part has no clear axis and no symmetry, so how it lies turned is not known: only what "
@@ -75,7 +76,7 @@ private:
             if (!features_.has("width_1")) propose_widths();
             propose_angles();
         }
-        propose_holes();
+        HoleProposer(samples_, rule_, features_).propose();
     }
 
     /// True if a part lies in one of several ways that are not told apart.
@@ -120,11 +121,13 @@ private:
         feature.centre = part_point(round->circle.centre, scale_);
         feature.radius = multiply_divide(round->circle.radius.raw(), scale_.x_per_pixel, FinePixel::one);
         feature.search = std::min(feature.radius / 3, 8 * pixel_);
+        features_.set_probes(feature, feature.radius);
         if (!features_.add(feature, "diameter")) return false;
+        all_round_ = round->percent_off == 0;
         if (round->percent_off > 0)
-            features_.note(
-                std::to_string(round->percent_off) +
-                " % of the outline is off the circle (a notch, a flat, a tooth?): that is not measured");
+            features_.note(std::to_string(round->percent_off) +
+                           " % of the outline is off the circle (a notch, a flat, a tooth?): the diameter "
+                           "does not measure that");
         return true;
     }
 
@@ -211,12 +214,14 @@ private:
                 "directions that are not told apart");
     }
 
+    static constexpr int few_lines = 3;
+
     /// A probe across the part at a share of its extent, along its axis or across it.
-    Feature across_at(bool along_axis, int eighths) const {
+    Feature across_at(bool along_axis, int sixteenths) const {
         const Extent& box = extent_;
         const std::int64_t margin = 6 * pixel_;
-        const std::int64_t x = (box.left + box.right) / 2 + (box.right - box.left) / 16 * eighths;
-        const std::int64_t y = (box.top + box.bottom) / 2 + (box.bottom - box.top) / 16 * eighths;
+        const std::int64_t x = (box.left + box.right) / 2 + (box.right - box.left) / 32 * sixteenths;
+        const std::int64_t y = (box.top + box.bottom) / 2 + (box.bottom - box.top) / 32 * sixteenths;
         Feature feature;
         feature.kind = FeatureKind::width;
         feature.from = along_axis ? PartPoint{box.left - margin, y} : PartPoint{x, box.top - margin};
@@ -225,18 +230,27 @@ private:
         feature.smoothing = features_.smoothing_for(feature);
         return feature;
     }
-    /// How much the value changes when the probe moves two pixels sideways: 0 where both edges are square to
-    /// it.
+    /// How much the value changes when the probe moves sideways, by two pixels or, of few lines, by one to
+    /// either side: 0 where both edges are square to it.
     std::optional<std::int64_t> slope_of(const Feature& feature) const {
-        const PartPoint side = square_to(feature.to - feature.from, 2 * pixel_);
-        Feature moved = feature;
-        moved.from = feature.from + side;
-        moved.to = feature.to + side;
+        const bool few = feature.lines <= few_lines;
         const Sample& first = samples_.parts.front();
         const Result<Measurement> here = meter().measure(first, feature);
-        const Result<Measurement> there = meter().measure(first, moved);
-        if (!here || !there) return {};
-        return std::abs(here->value.millionths - there->value.millionths);
+        if (!here) return {};
+        std::int64_t most = 0;
+        for (const int sign : {1, -1}) {
+            if (sign < 0 && !few) break;
+            const PartPoint side = square_to(feature.to - feature.from, sign * (few ? 1 : 2) * pixel_);
+            Feature moved = feature;
+            moved.from = feature.from + side;
+            moved.to = feature.to + side;
+            const Result<Measurement> there = meter().measure(first, moved);
+            if (!there) return {};
+            most = std::max(most, std::abs(here->value.millionths - there->value.millionths));
+        }
+        // Few lines are for edges that are round or short, not for tips.
+        if (few && most > pixel_ / 4) return {};
+        return most;
     }
     /// The candidates of a direction, the steadiest first; near the middle where they are alike.
     std::vector<Feature> candidates(bool along_axis) const {
@@ -245,13 +259,15 @@ private:
             std::int64_t rating;
         };
         std::vector<Rated> rated;
-        for (const int eighths : {0, -1, 1, -2, 2, -3, 3, -4, 4, -5, 5, -6, 6}) {
-            Feature across = across_at(along_axis, eighths);
-            std::optional<Feature> feature = within_images(across);
-            across.lines = 3;  // where the edge is round or short
+        for (int i = 0; i <= 24; ++i) {
+            const int sixteenths = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
+            Feature across = across_at(along_axis, sixteenths);
+            std::optional<Feature> feature;
+            if (sixteenths % 2 == 0) feature = within_images(across);
+            across.lines = few_lines;
             if (!feature) feature = within_images(across);
             const std::optional<std::int64_t> slope = feature ? slope_of(*feature) : std::nullopt;
-            if (slope) rated.push_back({*feature, *slope + std::abs(eighths) * pixel_ / 40});
+            if (slope) rated.push_back({*feature, *slope + std::abs(sixteenths) * pixel_ / 80});
         }
         std::stable_sort(rated.begin(), rated.end(),
                          [](const Rated& a, const Rated& b) { return a.rating < b.rating; });
@@ -267,7 +283,8 @@ private:
             Feature narrow = feature;
             narrow.lines = 1;
             const std::vector<std::int64_t> at_middle = meter().values_of(narrow);
-            if (!at_middle.empty() && std::abs(at_middle.front() - value) > pixel_ / 8) feature.lines = 3;
+            if (!at_middle.empty() && std::abs(at_middle.front() - value) > pixel_ / 8)
+                feature.lines = few_lines;
             if (is_whole(feature, value) && add_turned(feature, "length")) return;
         }
         features_.note(
@@ -313,77 +330,6 @@ private:
         }
     }
 
-    void propose_holes() {
-        const Sample& first = samples_.parts.front();
-        const auto [fewest, most] = std::minmax_element(
-            samples_.parts.begin(), samples_.parts.end(),
-            [](const Sample& a, const Sample& b) { return a.holes.size() < b.holes.size(); });
-        Feature count;
-        count.kind = FeatureKind::hole_count;
-        if (fewest->holes.size() == most->holes.size())
-            features_.add(count, "holes");
-        else
-            features_.note("holes are not counted: the good parts have from " +
-                           std::to_string(fewest->holes.size()) + " to " +
-                           std::to_string(most->holes.size()));
-        struct Found {
-            Feature feature;
-            bool round;
-        };
-        std::vector<Found> found;
-        for (const Hole& hole : first.holes) {
-            const Result<CentralMoments> moments =
-                fine_moments(first.image->view(), first.threshold.part, hole);
-            if (!moments) continue;
-            Feature feature;
-            feature.kind = FeatureKind::position;
-            feature.centre = meter().frame_of(first).to_part(moments->centroid);
-            feature.search =
-                std::max<std::int64_t>(pixel_ * std::max(hole.box.width, hole.box.height) / 2, pixel_);
-            feature.centre = meter().mean_place(feature).value_or(feature.centre);
-            found.push_back({feature, is_disc(*moments)});
-        }
-        // By their place along the part and, less, across it: their numbers must not hang on noise.
-        std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-            return 4 * a.feature.centre.x + a.feature.centre.y < 4 * b.feature.centre.x + b.feature.centre.y;
-        });
-        // All of a part that repeats itself, as far as a recipe holds them: any may be the bad one.
-        const std::size_t limit = repeats() ? found.size() : std::min<std::size_t>(found.size(), 6);
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            if (i == limit || !features_.room_for(2)) {
-                features_.note(std::to_string(found.size() - i) + " of " + std::to_string(found.size()) +
-                               " holes are not measured one by one");
-                break;
-            }
-            propose_hole(found[i].feature, found[i].round, "hole_" + std::to_string(i + 1));
-        }
-    }
-    /// By what a part is turned when it looks the same in its outline.
-    std::string turn_text() const {
-        switch (rule_.orientation) {
-            case OrientationRule::symmetric: return " by half, which its outline does not tell";
-            case OrientationRule::rotational:
-                return " by 1/" + std::to_string(rule_.symmetry_order) + " of a turn, which is not told";
-            default: return "";
-        }
-    }
-    void propose_hole(const Feature& position, bool round, const std::string& name) {
-        Feature diameter = position;
-        diameter.kind = FeatureKind::hole_diameter;
-        const bool has_diameter = round && features_.add(diameter, name);
-        if (features_.values_of(position).empty()) {
-            const std::string what = has_diameter ? "its place" : "it";
-            features_.note(name + (features_.turns() > 1 ? " lies elsewhere when the part is turned" +
-                                                               turn_text() + ": " + what + " is not measured"
-                                                         : " is not found on every part"));
-            return;
-        }
-        if (!has_diameter)
-            features_.note(name + (round ? " has no diameter: its edge is not seen as a circle on every part"
-                                         : " is not round: its size is not measured"));
-        features_.add(position, name + "_position");
-    }
-
     const Samples& samples_;
     LocateRule rule_;
     Scale scale_;
@@ -392,6 +338,7 @@ private:
     Outline outline_;
     Extent extent_;  ///< of all samples
     std::vector<Stretch> edges_;
+    bool all_round_ = false;  ///< of a part with a diameter: nothing is off its circle
 };
 
 }  // namespace detail

@@ -80,7 +80,7 @@ TEST(Damage, OfAWasherWithANotchIsMeasuredRoundAboutIt) {
     ASSERT_NE(feature_named(taught.recipe, "diameter"), nullptr);
     ASSERT_NE(feature_named(taught.recipe, "hole_1"), nullptr);
     EXPECT_GT(feature_named(taught.recipe, "diameter")->outliers, 9);
-    EXPECT_EQ(feature_named(taught.recipe, "hole_1")->outliers, 4);
+    EXPECT_LT(feature_named(taught.recipe, "hole_1")->outliers, 4);
     EXPECT_NEAR(nominal_of(taught.recipe, "diameter"), 180, 0.05);
     const bool told = std::any_of(taught.notes.begin(), taught.notes.end(), [](const std::string& note) {
         return note.compare(0, 36, "diameter is not round all around: da") == 0;
@@ -93,6 +93,30 @@ TEST(Damage, OfAWasherWithANotchIsMeasuredRoundAboutIt) {
               std::string::npos);
     EXPECT_NE(verdicts_of(lying(washer(90, 44.25), 100, 891), taught.recipe).find("hole_1:low"),
               std::string::npos);
+}
+
+TEST(Damage, OfAShaftWithAFlatIsSeenAtTheFlat) {
+    const auto shaft = [](double flat) -> Shape {
+        return [=](double s, double t) { return std::hypot(s, t) <= 60 && s <= flat; };
+    };
+    const Taught taught = taught_from({lying(shaft(50), 7, 896)});
+    EXPECT_NE(feature_named(taught.recipe, "diameter"), nullptr);
+    accepts_in_twenty_poses(taught.recipe, shaft(50), 180, 897);
+    for (const double flat : {47.0, 53.0})
+        for (const double turn : {10.0, 100.0, 200.0})
+            EXPECT_NE(verdicts_of(lying(shaft(flat), turn, 898), taught.recipe), "ok") << flat << " " << turn;
+}
+
+TEST(Damage, OfALargeDiscIsSeenWhereTwoProbesMeetIt) {
+    const Taught taught = taught_from({lying(disc(110), 7, 899)});
+    ASSERT_NE(feature_named(taught.recipe, "diameter"), nullptr);
+    EXPECT_EQ(feature_named(taught.recipe, "diameter")->probes, 128);
+    EXPECT_EQ(feature_named(taught.recipe, "diameter")->outliers, 1);
+    accepts_in_twenty_poses(taught.recipe, disc(110), 180, 900);
+    for (const double turn : {0.0, 1.4, 2.8, 45.0})
+        EXPECT_NE(verdicts_of(lying(without(disc(110), rectangle(12, 12), 110, 0), turn, 901), taught.recipe),
+                  "ok")
+            << turn;
 }
 
 TEST(Damage, OfABoreIsSeenThoughItsPlaceDependsOnTheTurn) {

@@ -73,6 +73,17 @@ double position_noise(double noise, double blur) {
 /// What rounding to whole grey levels adds, as noise of 1/sqrt(12) levels.
 constexpr double rounding_noise = 0.2887;
 
+TEST(EdgeProbe, FindsAnEdgeNearTheEndOfTheLongestDiagonal) {
+    // Every row of the view is the same one.
+    std::vector<Gray8> row(8191, Gray8{30});
+    std::fill(row.begin() + 8000, row.end(), Gray8{220});
+    const ImageView<const Gray8> image(row.data(), {8191, 8191}, 0);
+    const Probed found = probe(image, along(0, 0, 8190, 8190));
+    ASSERT_EQ(found.edges.size(), 1u);
+    EXPECT_NEAR(real(found.edges[0].place.x), 7999.5, 0.01);
+    EXPECT_NEAR(real(found.edges[0].place.y), 7999.5, 0.01);
+}
+
 TEST(EdgeProbe, FindsAStepBetweenTwoPixelsByHand) {
     GuardedImage<Gray8> image({20, 5});
     for (int y = 0; y < 5; ++y)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Any probe on any picture, down to one pixel and up to the longest row: edges lie on the probe, in order.
+// Any probe on any picture, down to one pixel and up to the longest row: edges lie on the probe, in order,
+// and their straightness is a number.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
 
 #include <fovea/measure/edge_probe.hpp>
+#include <fovea/measure/edge_straightness.hpp>
 
 namespace {
 
@@ -68,5 +70,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(can_sample(picture_size, edges[i].place));
         require(magnitude(edges[i].strength.raw()) >= magnitude(input.strength_min));
     }
+    if (count == 0) return 0;
+    const Result<FinePixel> stray = edge_straightness(
+        image, probe, edges[0], {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())},
+        ListView<Edge>(edges, 1 + input.room % 8, &count));
+    require(stray.ok() && stray->raw() >= 0 && (probe.lines > 2 || stray->raw() == 0));
     return 0;
 }

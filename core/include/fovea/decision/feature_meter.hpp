@@ -90,6 +90,7 @@ private:
     Result<Measurement> between_edges(const Edge& first, const Edge& second);
     Result<bool> is_straight(const Edge& edge);
     FinePixel most_stray() const { return FinePixel::from_int(feature_.smoothing); }
+    FinePixel most_off_circle();
     Status collect_point(const Edge& edge, PartPoint from, PartPoint to);
     Result<CircleFit> probe_circle(PartPoint centre, std::int64_t radius, std::int64_t reach);
     Result<FineAngle> probe_line(PartPoint from, PartPoint to, Measurement& marks);
@@ -220,6 +221,21 @@ inline Status FeatureMeter::collect_point(const Edge& edge, PartPoint from, Part
     return Status::ok;
 }
 
+/// How far a point may be off its circle: `smoothing` pixels, and up to three times as much where four
+/// deviations of the noise are more. The noise follows from the differences of neighbours, which do not see
+/// what changes slowly along the edge: 4 * 1.4826 / sqrt(2) times their median.
+inline FinePixel FeatureMeter::most_off_circle() {
+    const Span<const FinePoint> points = points_.first(point_count_);
+    const Result<CircleFit> all = fit_circle(points);
+    if (!all) return most_stray();
+    for (int i = 1; i < point_count_; ++i)
+        residuals_[i - 1] =
+            without_sign(distance_from(all->circle, points[i]) - distance_from(all->circle, points[i - 1]));
+    const std::int64_t noise = std::int64_t{median(residuals_.first(point_count_ - 1)).raw()} * 419 / 100;
+    const std::int64_t least = most_stray().raw();
+    return FinePixel::from_raw(static_cast<std::int32_t>(clamp(noise, least, 3 * least)));
+}
+
 /// The circle through the strongest edges of radial probes, corrected for the blur.
 inline Result<CircleFit> FeatureMeter::probe_circle(PartPoint centre, std::int64_t radius,
                                                     std::int64_t reach) {
@@ -238,13 +254,14 @@ inline Result<CircleFit> FeatureMeter::probe_circle(PartPoint centre, std::int64
         if (Status s = collect_point(**edge, at(inner), at(radius + reach)); s != Status::ok) return s;
     }
     if (point_count_ < maximum(3, feature_.probes / 2)) return Status::not_found;
+    const FinePixel most_off = most_off_circle();
     Result<CircleFit> fit =
-        fit_circle_robust(points_.first(point_count_), residuals_.first(point_count_), most_stray());
+        fit_circle_robust(points_.first(point_count_), residuals_.first(point_count_), most_off);
     if (!fit) return fit.status();
     if (fit->used < maximum(3, feature_.probes / 2)) return Status::not_found;
     int elsewhere = feature_.probes - point_count_;
     for (const FinePoint point : points_.first(point_count_))
-        if (without_sign(distance_from(fit->circle, point)) > most_stray()) ++elsewhere;
+        if (without_sign(distance_from(fit->circle, point)) > most_off) ++elsewhere;
     round_ = elsewhere * 100 <= feature_.outliers * feature_.probes;
     CircleFit corrected = *fit;
     const SquarePixels blur = median(blurs_.first(point_count_));

@@ -48,8 +48,8 @@ constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int part
 ///
 /// A part whose orientation is not certain is listed, with its features unmeasured but for the number of
 /// holes: its probes would stand anywhere. So is a feature whose probes leave the image or meet no edge, and
-/// with the status irregular one whose value would be OK but whose edges are not straight or round. Nothing
-/// unmeasured is ever OK.
+/// with the status irregular a circle that is not round, and a distance or width that would be OK but whose
+/// edges are not straight. Nothing unmeasured is ever OK.
 ///
 /// Shapes   image 1x1 to max_moment_side squared
 /// Order    parts by their first pixel, row by row; features as in the recipe

@@ -32,9 +32,10 @@ constexpr std::int64_t measure_feature_scratch(Size size);
 ///                  pointing from their start to their end: 0 to 180 degrees
 ///   hole_count     the number of holes
 ///
-/// The result is regular if each edge of a distance or a width is straight over the lines of the probe
-/// (edge_straightness()). Of the probes of a circle no more than the share `outliers` may meet no edge or one
-/// off the circle: else it is irregular and has no diameter. Both up to `smoothing` pixels.
+/// The result is regular if each edge of a distance or a width is straight over the lines of the probe, up to
+/// `smoothing` pixels (edge_straightness()). Of the probes of a circle no more than the share `outliers` may
+/// meet no edge or one off the circle by more than `smoothing` pixels, or four deviations of the noise up to
+/// three times that: else it is irregular and has no diameter.
 ///
 /// A round edge is seen nearer to its centre than it is, by half its blur's variance over its radius; circles
 /// are corrected for that.

@@ -219,7 +219,7 @@ inline Edge edge_at(const EdgeProbe& probe, const Profile& profile, int at) {
         bend < 0 ? round_divide((before - behind) * 65536, bend * -1) * -1
                  : round_divide((before - behind) * 65536, maximum<std::int64_t>(bend, 1));
     const std::int64_t position =
-        clamp<std::int64_t>(at * 65536 + fraction, 0, std::int64_t{profile.steps()} * 65536);
+        clamp<std::int64_t>(std::int64_t{at} * 65536 + fraction, 0, std::int64_t{profile.steps()} * 65536);
 
     Edge edge;
     constexpr std::int64_t unit = Unit::one / 65536;

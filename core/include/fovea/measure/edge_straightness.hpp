@@ -24,14 +24,16 @@ namespace fovea {
 /// How far an edge that edge_probe() found strays from straight over the lines of the probe.
 ///
 /// The lines are taken in groups of neighbours: three to sixteen groups, of four or five lines where there
-/// are 12 to 64. In each the edge is sought anew, of the same sense, near its place: of those at least half
-/// as strong as the strongest the nearest one. The result is the largest distance along the probe of these
-/// edges from the straight line fitted to them, which may run aslant; a group without an edge counts as
-/// straightness_reach() away.
+/// are 12 to 67, of fewer and more below and above. In each the edge is sought anew, of the same sense, near
+/// its place: of those at least half as strong as the strongest the nearest one. The result is the largest
+/// distance along the probe of these edges from the straight line fitted to them, which may run aslant; a
+/// group without an edge counts as straightness_reach() away.
 ///
 /// Shapes    as edge_probe(); 0 for a probe of less than three lines
-/// Units     pixels, 0 or more. A step of s pixels over whole groups gives 0.3 s or more; a round edge of the
-///           radius R nearly lines^2 / (12 R), less the fewer groups there are
+/// Units     pixels, 0 or more. A step of s pixels between two groups gives 0.3 s or more; within the middle
+/// one
+///           of three it may look like an edge that runs aslant. A round edge of the radius R gives
+///           lines^2 / (27 R) with three groups and towards lines^2 / (12 R) with more
 /// Rounding  to 1/65536 px
 /// Scratch   as edge_probe(), and room for a few edges; both undefined afterwards
 /// Errors    as edge_probe(); a full list of edges is none
