@@ -138,5 +138,13 @@ TEST(Damage, OfASlotIsNotMeasuredAndTeachingSaysSo) {
     EXPECT_TRUE(told);
 }
 
+TEST(Damage, IsNotWhatAProbeMeetsOnATip) {
+    const Shape house = [](double s, double t) {
+        return s >= -90 && std::abs(t) <= 35 && s + 2 * std::abs(t) <= 90;
+    };
+    for (const double turn : {7.0, 40.0, 100.0})
+        EXPECT_EQ(feature_named(taught_from({lying(house, turn, 920)}).recipe, "length"), nullptr) << turn;
+}
+
 }  // namespace
 }  // namespace fovea::test

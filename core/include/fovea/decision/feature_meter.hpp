@@ -228,9 +228,13 @@ inline FinePixel FeatureMeter::most_off_circle() {
     const Span<const FinePoint> points = points_.first(point_count_);
     const Result<CircleFit> all = fit_circle(points);
     if (!all) return most_stray();
-    for (int i = 1; i < point_count_; ++i)
-        residuals_[i - 1] =
-            without_sign(distance_from(all->circle, points[i]) - distance_from(all->circle, points[i - 1]));
+    std::int64_t last = distance_from(all->circle, points[0]).raw();
+    for (int i = 1; i < point_count_; ++i) {
+        const std::int64_t here = distance_from(all->circle, points[i]).raw();
+        const std::int64_t differs = here < last ? last - here : here - last;
+        residuals_[i - 1] = FinePixel::from_raw(saturate_cast<std::int32_t>(differs));
+        last = here;
+    }
     const std::int64_t noise = std::int64_t{median(residuals_.first(point_count_ - 1)).raw()} * 419 / 100;
     const std::int64_t least = most_stray().raw();
     return FinePixel::from_raw(static_cast<std::int32_t>(clamp(noise, least, 3 * least)));

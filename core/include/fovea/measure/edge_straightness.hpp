@@ -30,11 +30,11 @@ namespace fovea {
 /// group without an edge counts as straightness_reach() away.
 ///
 /// Shapes    as edge_probe(); 0 for a probe of less than three lines
-/// Units     pixels, 0 or more. A step of s pixels between two groups gives 0.3 s or more; within the middle
-/// one
-///           of three it may look like an edge that runs aslant. A round edge of the radius R gives
-///           lines^2 / (27 R) with three groups and towards lines^2 / (12 R) with more
+/// Units     pixels, 0 or more. A step of s pixels between two groups gives 0.3 s or more; one within the
+///           middle of three groups may look like an edge that runs aslant. A round edge of the radius R
+///           gives lines^2 / (27 R) with three groups and towards lines^2 / (12 R) with more
 /// Rounding  to 1/65536 px
+/// Border    as edge_probe()
 /// Scratch   as edge_probe(), and room for a few edges; both undefined afterwards
 /// Errors    as edge_probe(); a full list of edges is none
 /// Source    the quantity is the straightness of ISO 1101 with the least-squares line of ISO 12780-1 as its
