@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Every operator of the core that works on images is timed by tests/bench, or stands in tests/bench/without_line.txt.
 
+A line that is added by the name of an entry of the catalogue times what that entry calls.
+
 usage: bench.py [ROOT]     prints one line a finding and fails if there is one
 """
 import re
@@ -18,10 +20,23 @@ def operators_of(header):
             if "::" not in name and re.search(rf"\b{name}\s*\([^;{{]*\bImageView\b", text)]
 
 
+def entries_of(catalogue):
+    """Name of an entry -> its text."""
+    found = {}
+    for path in sorted(catalogue.glob("*.hpp")):
+        parts = re.split(r'\{"(\w+)",\s*"', path.read_text())
+        found.update(zip(parts[1::2], parts[2::2]))
+    return found
+
+
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parents[2]).resolve()
     include, bench = root / "core/include/fovea", root / "tests/bench"
     timed = "".join(without_comments(path.read_text()) for path in sorted(bench.rglob("*_bench.cpp")))
+    entries = entries_of(include / "catalogue")
+    for path in sorted(bench.rglob("*_bench.cpp")):
+        for name in re.findall(r'add_operator\(\s*\w+,\s*"(\w+)"', path.read_text()):
+            timed += without_comments(entries.get(name, ""))
     lines = (bench / "without_line.txt").read_text().split("\n")
     excuses = dict((line.split(maxsplit=1) + [""])[:2] for line in lines if line and not line.startswith("#"))
     findings = [f"without_line.txt: no reason for {name}" for name, reason in excuses.items() if not reason]

@@ -7,7 +7,7 @@ FUNCTION = re.compile(r"(?<![\w.>~])(~?[A-Za-z_]\w*)\s*\(")
 NOT_FUNCTIONS = {"decltype", "sizeof", "alignof", "noexcept", "static_assert", "operator"}
 INTERNAL = {"detail", "kernels"}
 # Folders of the core that hold what operators are made of.
-FOUNDATIONS = {"base", "number", "linear", "simd", "image", "stream"}
+FOUNDATIONS = {"base", "number", "linear", "simd", "image", "stream", "catalogue"}
 
 
 def without_comments(text):

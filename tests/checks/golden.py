@@ -2,7 +2,8 @@
 """Golden vectors: every public function has one, and every processor computes the same.
 
 usage: golden.py [--root ROOT]              each function in the Interface part of a core header is called by
-                                            tests/golden/*_vectors.hpp or stands in tests/golden/without_vector.txt
+                                            tests/golden/*_vectors.hpp or by an entry of the catalogue, or stands
+                                            in tests/golden/without_vector.txt
        golden.py --table FILE COMMAND...    the command prints the table in FILE
 """
 import argparse
@@ -18,7 +19,9 @@ from declarations import declared, interface_of, is_used, without_comments
 
 def check_coverage(root):
     include = root / "core/include/fovea"
-    vectors = "".join(without_comments(path.read_text()) for path in sorted((root / "tests/golden").glob("*.hpp")))
+    # The catalogue's entries call their operators, and each of them is a vector.
+    places = [*sorted((root / "tests/golden").glob("*.hpp")), *sorted((include / "catalogue").glob("*.hpp"))]
+    vectors = "".join(without_comments(path.read_text()) for path in places)
     lines = [line for line in (root / "tests/golden/without_vector.txt").read_text().split("\n")
              if line and not line.startswith("#")]
     entries = [line.split(maxsplit=1) for line in lines]

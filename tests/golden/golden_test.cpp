@@ -8,6 +8,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <golden/vectors.hpp>
 
@@ -38,6 +39,12 @@ std::map<std::string, std::string> read_table() {
     return table;
 }
 
+std::vector<Vector> all_vectors() {
+    std::vector<Vector> all;
+    for_each_vector([&](const Vector& vector) { all.push_back(vector); });
+    return all;
+}
+
 class GoldenVector : public testing::TestWithParam<Vector> {};
 
 TEST_P(GoldenVector, HasTheChecksumOfTheTable) {
@@ -54,7 +61,7 @@ TEST_P(GoldenVector, DoesNotDependOnWhatRanBefore) {
     EXPECT_EQ(checksum(GetParam(), workspace), first);
 }
 
-INSTANTIATE_TEST_SUITE_P(, GoldenVector, testing::ValuesIn(vectors), [](const auto& parameter) {
+INSTANTIATE_TEST_SUITE_P(, GoldenVector, testing::ValuesIn(all_vectors()), [](const auto& parameter) {
     std::string name = parameter.param.name;
     for (char& letter : name)
         if (letter == '/') letter = '_';
@@ -63,14 +70,14 @@ INSTANTIATE_TEST_SUITE_P(, GoldenVector, testing::ValuesIn(vectors), [](const au
 
 TEST(GoldenTable, HasNoLineWithoutAVector) {
     std::map<std::string, std::string> table = read_table();
-    for (const Vector& vector : vectors) table.erase(vector.name);
+    for (const Vector& vector : all_vectors()) table.erase(vector.name);
     for (const auto& [name, expected] : table) ADD_FAILURE() << "no vector is called " << name;
 }
 
 TEST(GoldenVectors, HaveDifferentChecksums) {
     // A vector that digests nothing, or the outputs of another one, would share its checksum.
     std::map<std::uint32_t, std::string> seen;
-    for (const Vector& vector : vectors) {
+    for (const Vector& vector : all_vectors()) {
         const auto [place, fresh] = seen.emplace(checksum(vector, workspace), vector.name);
         EXPECT_TRUE(fresh) << vector.name << " and " << place->second;
     }

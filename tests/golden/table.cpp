@@ -10,7 +10,8 @@ fovea::golden::Workspace workspace;
 }  // namespace
 
 int main() {
-    for (const fovea::golden::Vector& vector : fovea::golden::vectors)
+    fovea::golden::for_each_vector([](const fovea::golden::Vector& vector) {
         std::printf("%s %08x\n", vector.name, static_cast<unsigned>(checksum(vector, workspace)));
+    });
     return std::fflush(stdout) == 0 ? 0 : 1;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include <fovea/base/span.hpp>
+#include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
 #include <golden/codec_vectors.hpp>
 #include <golden/decision_vectors.hpp>
@@ -17,6 +18,7 @@
 #include <golden/draw_vectors.hpp>
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
+#include <golden/operator_vectors.hpp>
 #include <golden/workspace.hpp>
 
 namespace fovea::golden {
@@ -24,6 +26,7 @@ namespace fovea::golden {
 struct Vector {
     const char* name;
     void (*compute)(Workspace& work, Digest& digest);
+    const Operator* op = nullptr;  ///< an entry of the catalogue in place of compute
 };
 
 inline constexpr Vector vectors[] = {
@@ -82,6 +85,14 @@ inline constexpr Vector vectors[] = {
     {"decision/tolerance", decision_tolerance},
 };
 
+/// visit(vector) for all of them, then for every operator of the catalogue.
+template <class Visit>
+void for_each_vector(Visit visit) {
+    for (const Vector& vector : vectors) visit(vector);
+    for (const OperatorFamily& family : operator_families)
+        for (const Operator& op : family.operators) visit(Vector{op.name, nullptr, &op});
+}
+
 /// The checksum of one vector. The workspace is shared, and cleared first.
 inline std::uint32_t checksum(const Vector& vector, Workspace& work) {
     for (auto& image : work.image)
@@ -90,7 +101,10 @@ inline std::uint32_t checksum(const Vector& vector, Workspace& work) {
     work.regions.clear();
     work.holes.clear();
     Digest digest;
-    vector.compute(work, digest);
+    if (vector.op != nullptr)
+        operator_vector(*vector.op, work, digest);
+    else
+        vector.compute(work, digest);
     return digest.value();
 }
 

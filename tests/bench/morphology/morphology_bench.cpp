@@ -1,46 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include <fovea/morphology/morphology.hpp>
-
-#include <bench/harness.hpp>
-#include <bench/opencv.hpp>
-#include <bench/pictures.hpp>
+#include <bench/operators.hpp>
 
 namespace fovea::bench {
 namespace {
 
-/// The four operators have one form of call.
-template <class Operator>
-void time_rectangle(Row& row, int side, std::int64_t scratch_bytes, Operator op,
-                    [[maybe_unused]] int opencv_op) {
-    auto& src = row.keep(part(row.size()));
-    auto& dst = row.keep(Picture<Gray8>(row.size()));
-    auto& scratch = row.keep(bytes(scratch_bytes));
-    row.ours([&, side, op] { consume(op(src.view(), {side, side}, span_of(scratch), dst.view())); });
-#if defined(FOVEA_HAVE_OPENCV)
-    const cv::Mat element = cv::getStructuringElement(cv::MORPH_RECT, {side, side});
-    row.peer("OpenCV", [a = mat(src), b = mat(dst), element, opencv_op]() mutable {
-        cv::morphologyEx(a, b, opencv_op, element);
-    });
-#endif
+/// OpenCV's four operations by number, with a rectangle.
+[[maybe_unused]] constexpr int erosion = 0, dilation = 1, opened = 2, closed = 3;
+
+Peer rectangle([[maybe_unused]] int operation, [[maybe_unused]] int side) {
+    return FOVEA_OPENCV(
+        cv::morphologyEx(in[0], out, operation, cv::getStructuringElement(cv::MORPH_RECT, {side, side})));
 }
 
-constexpr int opencv_erode = 0, opencv_dilate = 1, opencv_open = 2, opencv_close = 3;
-
-const bool erode_3_added = add(30, "erode 3x3", Sizes::vga_and_full_hd, [](Row& row) {
-    time_rectangle(row, 3, erode_scratch(row.size()), erode, opencv_erode);
-});
-const bool erode_15_added = add(31, "erode 15x15", Sizes::vga_and_full_hd, [](Row& row) {
-    time_rectangle(row, 15, erode_scratch(row.size()), erode, opencv_erode);
-});
-const bool dilate_3_added = add(32, "dilate 3x3", Sizes::vga, [](Row& row) {
-    time_rectangle(row, 3, dilate_scratch(row.size()), dilate, opencv_dilate);
-});
-const bool opening_added = add(33, "opening 3x3", Sizes::vga_and_full_hd, [](Row& row) {
-    time_rectangle(row, 3, opening_scratch(row.size()), opening, opencv_open);
-});
-const bool closing_added = add(34, "closing 3x3", Sizes::vga, [](Row& row) {
-    time_rectangle(row, 3, closing_scratch(row.size()), closing, opencv_close);
-});
+const bool lines[] = {
+    add_operator(30, "erode", Sizes::vga_and_full_hd, {3, 3}, rectangle(erosion, 3), "erode 3x3"),
+    add_operator(31, "erode", Sizes::vga_and_full_hd, {15, 15}, rectangle(erosion, 15), "erode 15x15"),
+    add_operator(32, "dilate", Sizes::vga, {3, 3}, rectangle(dilation, 3), "dilate 3x3"),
+    add_operator(33, "opening", Sizes::vga_and_full_hd, {3, 3}, rectangle(opened, 3), "opening 3x3"),
+    add_operator(34, "closing", Sizes::vga, {3, 3}, rectangle(closed, 3), "closing 3x3"),
+};
 
 }  // namespace
 }  // namespace fovea::bench
