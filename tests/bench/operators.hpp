@@ -36,16 +36,19 @@ inline int opencv_type(PixelKind kind) {
 
 /// The same work by OpenCV: from the inputs to the output, both of the pixels of the operator.
 using Peer = std::function<void(const std::vector<cv::Mat>& inputs, cv::Mat& output)>;
-/// A peer where OpenCV is there, nothing elsewhere: FOVEA_OPENCV(cv::erode(in[0], out, ...))
-#define FOVEA_OPENCV(...)                                                                     \
-    ::fovea::bench::Peer([=]([[maybe_unused]] const std::vector<cv::Mat>& in, cv::Mat& out) { \
-        static_cast<void>(out);                                                               \
-        __VA_ARGS__;                                                                          \
+/// A peer where OpenCV is there, nothing elsewhere: FOVEA_OPENCV(cv::erode(in[0], out, ...)). The first form
+/// keeps what stands around it.
+#define FOVEA_OPENCV_KEEPING(keeping, ...)                                                          \
+    ::fovea::bench::Peer([keeping]([[maybe_unused]] const std::vector<cv::Mat>& in, cv::Mat& out) { \
+        static_cast<void>(out);                                                                     \
+        __VA_ARGS__;                                                                                \
     })
+#define FOVEA_OPENCV(...) FOVEA_OPENCV_KEEPING(, __VA_ARGS__)
 
 #else
 
 struct Peer {};
+#define FOVEA_OPENCV_KEEPING(...) ::fovea::bench::Peer()
 #define FOVEA_OPENCV(...) ::fovea::bench::Peer()
 
 #endif

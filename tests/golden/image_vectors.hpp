@@ -131,6 +131,29 @@ inline void simd_lanes(Workspace& work, Digest& digest) {
     }
 }
 
+/// What Words does with numbers of 16 bits, and their line.
+inline void simd_words(Workspace& work, Digest& digest) {
+    constexpr int width = 192;
+    Random random(12);
+    const ImageView<Gray16> src = work.view<Gray16>(0, {width, 2});
+    const ImageView<Gray16> dst = work.view<Gray16>(1, {width, 6});
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < width; ++x) src(x, y) = static_cast<Gray16>(random.next() >> 16);
+    simd::WordLine line(work.scratch_span().first(word_line_scratch(width)), width);
+    for (int x = -max_reach; x < width + max_reach; ++x) line.set(x, static_cast<Gray16>(7 * x * x + x));
+    for (int x = 0; x < width; x += simd::lanes) {
+        const auto a = simd::Words::load(src.row(0) + x);
+        const auto b = simd::Words::load(src.row(1) + x);
+        lower(a, b).store(dst.row(0) + x);
+        higher(a, b).store(dst.row(1) + x);
+        ((at_least(a, b) & a) | ~b).store(dst.row(2) + x);
+        times_high(a, 10486).store(dst.row(3) + x);
+        (line.at<-3>(x) - line.at<2>(x)).store(dst.row(4) + x);
+        (line.at(x, 7) - line.at(x, -8)).store(dst.row(5) + x);
+    }
+    digest.add(dst);
+}
+
 // ---- pixelwise ----------------------------------------------------------------------------
 
 inline void pixelwise_threshold(Workspace& work, Digest& digest) {

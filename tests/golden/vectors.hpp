@@ -41,6 +41,7 @@ inline constexpr Vector vectors[] = {
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
     {"simd/lanes", simd_lanes},
+    {"simd/words", simd_words},
     {"image/row_kernel", image_row_kernel},
     {"image/views", image_views},
     {"pixelwise/threshold", pixelwise_threshold},

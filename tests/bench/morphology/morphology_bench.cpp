@@ -8,8 +8,8 @@ namespace {
 [[maybe_unused]] constexpr int erosion = 0, dilation = 1, opened = 2, closed = 3;
 
 Peer rectangle([[maybe_unused]] int operation, [[maybe_unused]] int side) {
-    return FOVEA_OPENCV(
-        cv::morphologyEx(in[0], out, operation, cv::getStructuringElement(cv::MORPH_RECT, {side, side})));
+    return FOVEA_OPENCV_KEEPING(
+        =, cv::morphologyEx(in[0], out, operation, cv::getStructuringElement(cv::MORPH_RECT, {side, side})));
 }
 
 const bool lines[] = {

@@ -218,6 +218,54 @@ TEST(Words, SubtractFromADifferenceAgain) {
         [](int, int b) { return b; });
 }
 
+TEST(Words, CompareAndChooseUnsignedNumbers) {
+    compare(
+        65536, 65536, [](const Words& a, const Words& b) { return lower(a, b); },
+        [](int a, int b) { return std::min(a, b); });
+    compare(
+        65536, 65536, [](const Words& a, const Words& b) { return higher(a, b); },
+        [](int a, int b) { return std::max(a, b); });
+    compare(
+        65536, 65536, [](const Words& a, const Words& b) { return at_least(a, b); },
+        [](int a, int b) { return a >= b ? 65535 : 0; });
+    compare(
+        65536, 65536, [](const Words& a, const Words& b) { return (a & b) | ~a; },
+        [](int a, int b) { return ((a & b) | ~a) & 65535; });
+}
+
+TEST(Words, GiveTheHighHalfOfAProduct) {
+    for (const int k : {0, 1, 2, 255, 256, 7282, 10486, 32767, 32768, 65535})
+        compare(
+            65536, 1,
+            [=](const Words& a, const Words&) { return times_high(a, static_cast<std::uint16_t>(k)); },
+            [=](int a, int) {
+                return static_cast<int>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(k) >> 16);
+            });
+}
+
+TEST(Words, LoadAndStoreNumbersOf16BitsInTheirOrder) {
+    Random random(91);
+    for (std::size_t count = 1; count <= lanes; ++count) {
+        std::array<std::uint16_t, lanes> from{};
+        for (auto& number : from) number = static_cast<std::uint16_t>(random.next());
+        const bool whole = count == lanes;
+        const Words words =
+            whole ? Words::load(from.data()) : Words::load(from.data(), static_cast<int>(count));
+        const Columns columns = columns_of(words);
+        for (std::size_t i = 0; i < lanes; ++i) ASSERT_EQ(columns[i], i < count ? from[i] : 0);
+        std::array<std::uint16_t, lanes> to{};
+        to.fill(0xa5a5);
+        if (whole)
+            words.store(to.data());
+        else
+            words.store(to.data(), static_cast<int>(count));
+        for (std::size_t i = 0; i < lanes; ++i) ASSERT_EQ(to[i], i < count ? from[i] : 0xa5a5);
+        std::array<std::int16_t, lanes> differences{};
+        (Words::all(3) - Words::all(5)).store(differences.data(), static_cast<int>(count));
+        for (std::size_t i = 0; i < lanes; ++i) ASSERT_EQ(differences[i], i < count ? -2 : 0);
+    }
+}
+
 TEST(Words, ComputeTheMeanOfAPixelAndItsDoubleAsAFilterDoes) {
     // 3 a + 2 b + 4 over 8, the shape of every smoothing: all of it below 2^16.
     Random random(90);

@@ -44,18 +44,22 @@ private:
 /// Runs a row kernel over rows first..last of a frame, top to bottom; dst holds those rows alone.
 ///
 /// Shapes   src as wide as dst; dst last - first + 1 rows
-/// Border   rows beyond src as border says; the kernel does the columns
-/// Overlap  none
+/// Border   rows beyond src as border says; the kernel does the columns. For Border::zero, zeros is a row of
+/// them Overlap  none
 template <class Kernel>
 void for_each_row(ImageView<const typename Kernel::Input> src, Border border, int first, int last,
-                  Kernel& kernel, ImageView<typename Kernel::Output> dst) {
+                  Kernel& kernel, ImageView<typename Kernel::Output> dst,
+                  const typename Kernel::Input* zeros = nullptr) {
     using Input = typename Kernel::Input;
     const int rows = kernel.rows();
     FOVEA_ASSERT(rows % 2 == 1 && rows <= max_window_rows && last - first < dst.height());
+    FOVEA_ASSERT(border != Border::zero || zeros != nullptr);
     const Input* window[max_window_rows];
     for (int y = first; y <= last; ++y) {
-        for (int i = 0; i < rows; ++i)
-            window[i] = src.row(border_index(border, y - rows / 2 + i, src.height()));
+        for (int i = 0; i < rows; ++i) {
+            const int row = border_index(border, y - rows / 2 + i, src.height());
+            window[i] = row == no_index ? zeros : src.row(row);
+        }
         kernel(RowWindow<Input>(window, rows, src.width()), dst.row(y - first));
     }
 }
@@ -63,8 +67,8 @@ void for_each_row(ImageView<const typename Kernel::Input> src, Border border, in
 /// Runs a row kernel over a whole frame.
 template <class Kernel>
 void for_each_row(ImageView<const typename Kernel::Input> src, Border border, Kernel& kernel,
-                  ImageView<typename Kernel::Output> dst) {
-    for_each_row(src, border, 0, src.height() - 1, kernel, dst);
+                  ImageView<typename Kernel::Output> dst, const typename Kernel::Input* zeros = nullptr) {
+    for_each_row(src, border, 0, src.height() - 1, kernel, dst, zeros);
 }
 
 }  // namespace fovea

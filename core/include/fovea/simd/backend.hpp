@@ -7,11 +7,16 @@
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include <fovea/simd/isa.hpp>
 
 #if FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
 #include <arm_acle.h>
+#elif FOVEA_BYTES == 32 && defined(__AVX2__)
+#include <immintrin.h>
+#elif FOVEA_BYTES == 16 && defined(__SSE2__)
+#include <emmintrin.h>
 #endif
 
 namespace fovea {
@@ -35,6 +40,7 @@ template <class To, class From>
 using RawBytes [[gnu::vector_size(FOVEA_BYTES)]] = std::uint8_t;
 using RawWords [[gnu::vector_size(FOVEA_BYTES)]] = std::uint16_t;
 using RawSigned [[gnu::vector_size(FOVEA_BYTES)]] = std::int16_t;
+using RawQuads [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
 
 [[gnu::always_inline]] inline RawBytes all_bytes(std::uint8_t k) { return RawBytes{} + k; }
 [[gnu::always_inline]] inline RawWords all_words(std::uint16_t k) { return RawWords{} + k; }
@@ -55,6 +61,58 @@ using RawSigned [[gnu::vector_size(FOVEA_BYTES)]] = std::int16_t;
 [[gnu::always_inline]] inline RawWords at_most_255(RawWords a) {
     const RawWords limit = all_words(255);
     return a < limit ? a : limit;
+}
+[[gnu::always_inline]] inline RawWords lower_words(RawWords a, RawWords b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline RawWords higher_words(RawWords a, RawWords b) { return a > b ? a : b; }
+/// 65535 where a >= b, else 0.
+[[gnu::always_inline]] inline RawWords at_least_words(RawWords a, RawWords b) {
+    return bits_as<RawWords>(a >= b);
+}
+/// The high 16 bits of each product.
+[[gnu::always_inline]] inline RawWords times_high(RawWords a, std::uint16_t k) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    return bits_as<RawWords>(_mm256_mulhi_epu16(bits_as<__m256i>(a), bits_as<__m256i>(all_words(k))));
+#elif FOVEA_BYTES == 16 && defined(__SSE2__)
+    return bits_as<RawWords>(_mm_mulhi_epu16(bits_as<__m128i>(a), bits_as<__m128i>(all_words(k))));
+#else
+    const RawQuads pairs = bits_as<RawQuads>(a);
+    return bits_as<RawWords>((pairs & 0xffffu) * k >> 16 | ((pairs >> 16) * k & 0xffff0000u));
+#endif
+}
+
+/// The numbers Count of a vector as a pack, for shuffles.
+template <class Numbers>
+struct Shuffle;
+template <int... I>
+struct Shuffle<std::integer_sequence<int, I...>> {
+    static constexpr int count = static_cast<int>(sizeof...(I));
+    /// a0 b0 a1 b1 ..., the first half of it, and the second.
+    [[gnu::always_inline]] static RawWords interleave_first(RawWords a, RawWords b) {
+        return __builtin_shufflevector(a, b, (I / 2 + I % 2 * count)...);
+    }
+    [[gnu::always_inline]] static RawWords interleave_second(RawWords a, RawWords b) {
+        return __builtin_shufflevector(a, b, (count / 2 + I / 2 + I % 2 * count)...);
+    }
+    /// Every second of a and then of b, from the first on, and from the second.
+    [[gnu::always_inline]] static RawWords even_of(RawWords a, RawWords b) {
+        return __builtin_shufflevector(a, b, (2 * I)...);
+    }
+    [[gnu::always_inline]] static RawWords odd_of(RawWords a, RawWords b) {
+        return __builtin_shufflevector(a, b, (2 * I + 1)...);
+    }
+};
+using ShuffleWords = Shuffle<std::make_integer_sequence<int, FOVEA_BYTES / 2>>;
+[[gnu::always_inline]] inline RawWords interleave_first(RawWords a, RawWords b) {
+    return ShuffleWords::interleave_first(a, b);
+}
+[[gnu::always_inline]] inline RawWords interleave_second(RawWords a, RawWords b) {
+    return ShuffleWords::interleave_second(a, b);
+}
+[[gnu::always_inline]] inline RawWords even_words(RawWords a, RawWords b) {
+    return ShuffleWords::even_of(a, b);
+}
+[[gnu::always_inline]] inline RawWords odd_words(RawWords a, RawWords b) {
+    return ShuffleWords::odd_of(a, b);
 }
 
 #else
@@ -136,6 +194,36 @@ using RawWords = std::uint32_t;
 }
 
 #endif
+
+/// 65535 in each half where a >= b, else 0: as at_least(), with halves.
+[[gnu::always_inline]] inline RawWords at_least_words(RawWords a, RawWords b) {
+    constexpr RawWords top = 0x80008000u;
+    const RawWords difference = (a | top) - (b & ~top);
+    const RawWords flags = ((a & ~b) | (~(a ^ b) & difference)) & top;
+    return (flags << 1) - (flags >> 15);
+}
+[[gnu::always_inline]] inline RawWords lower_words(RawWords a, RawWords b) {
+    const RawWords mask = at_least_words(a, b);
+    return (b & mask) | (a & ~mask);
+}
+[[gnu::always_inline]] inline RawWords higher_words(RawWords a, RawWords b) {
+    const RawWords mask = at_least_words(a, b);
+    return (a & mask) | (b & ~mask);
+}
+[[gnu::always_inline]] inline RawWords times_high(RawWords a, std::uint16_t k) {
+    return (a & 0xffffu) * k >> 16 | ((a >> 16) * k & 0xffff0000u);
+}
+// The half of the lower column lies where memory has it first.
+inline constexpr bool big_endian_words = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+[[gnu::always_inline]] inline RawWords interleave_first(RawWords a, RawWords b) {
+    return big_endian_words ? (a & 0xffff0000u) | b >> 16 : (a & 0xffffu) | b << 16;
+}
+[[gnu::always_inline]] inline RawWords interleave_second(RawWords a, RawWords b) {
+    return big_endian_words ? a << 16 | (b & 0xffffu) : a >> 16 | (b & 0xffff0000u);
+}
+[[gnu::always_inline]] inline RawWords even_words(RawWords a, RawWords b) { return interleave_first(a, b); }
+[[gnu::always_inline]] inline RawWords odd_words(RawWords a, RawWords b) { return interleave_second(a, b); }
+
 #endif
 
 }  // namespace simd

@@ -70,6 +70,35 @@ struct Words {
     [[gnu::always_inline]] static Words all(std::uint16_t value) {
         return {all_words(value), all_words(value)};
     }
+    /// lanes numbers of 16 bits, or the first count of them and zeros behind.
+    [[gnu::always_inline]] static Words load(const std::uint16_t* from) {
+        RawWords first;
+        RawWords second;
+        std::memcpy(&first, from, sizeof first);
+        std::memcpy(&second, from + lanes / 2, sizeof second);
+        return {even_words(first, second), odd_words(first, second)};
+    }
+    [[gnu::always_inline]] static Words load(const std::uint16_t* from, int count) {
+        std::uint16_t row[lanes] = {};
+        std::memcpy(row, from, sizeof(std::uint16_t) * static_cast<std::size_t>(count));
+        return load(row);
+    }
+    [[gnu::always_inline]] void store(std::uint16_t* to) const {
+        const RawWords first = interleave_first(even, odd);
+        const RawWords second = interleave_second(even, odd);
+        std::memcpy(to, &first, sizeof first);
+        std::memcpy(to + lanes / 2, &second, sizeof second);
+    }
+    [[gnu::always_inline]] void store(std::uint16_t* to, int count) const {
+        std::uint16_t row[lanes];
+        store(row);
+        std::memcpy(to, row, sizeof(std::uint16_t) * static_cast<std::size_t>(count));
+    }
+    /// Differences as they are.
+    [[gnu::always_inline]] void store(std::int16_t* to) const { store(reinterpret_cast<std::uint16_t*>(to)); }
+    [[gnu::always_inline]] void store(std::int16_t* to, int count) const {
+        store(reinterpret_cast<std::uint16_t*>(to), count);
+    }
 
     /// Back to pixels; all values must be below 256.
     [[gnu::always_inline]] Bytes narrow() const {
@@ -96,6 +125,29 @@ struct Words {
     [[gnu::always_inline]] friend Words operator>>(Words a, int n) {
         return {shift_right(a.even, n), shift_right(a.odd, n)};
     }
+    /// The high 16 bits of each product: a quotient by a constant, where the caller has shown that it is
+    /// exact.
+    [[gnu::always_inline]] friend Words times_high(Words a, std::uint16_t k) {
+        return {times_high(a.even, k), times_high(a.odd, k)};
+    }
+    /// The lower, the higher of two unsigned numbers.
+    [[gnu::always_inline]] friend Words lower(Words a, Words b) {
+        return {lower_words(a.even, b.even), lower_words(a.odd, b.odd)};
+    }
+    [[gnu::always_inline]] friend Words higher(Words a, Words b) {
+        return {higher_words(a.even, b.even), higher_words(a.odd, b.odd)};
+    }
+    /// 65535 where a >= b as unsigned numbers, else 0.
+    [[gnu::always_inline]] friend Words at_least(Words a, Words b) {
+        return {at_least_words(a.even, b.even), at_least_words(a.odd, b.odd)};
+    }
+    [[gnu::always_inline]] friend Words operator&(Words a, Words b) {
+        return {a.even & b.even, a.odd & b.odd};
+    }
+    [[gnu::always_inline]] friend Words operator|(Words a, Words b) {
+        return {a.even | b.even, a.odd | b.odd};
+    }
+    [[gnu::always_inline]] friend Words operator~(Words a) { return {~a.even, ~a.odd}; }
     [[gnu::always_inline]] friend Words absolute(Words a) { return {absolute(a.even), absolute(a.odd)}; }
 
 private:

@@ -23,6 +23,11 @@ inline namespace FOVEA_ISA {
 /// overhang.
 constexpr int byte_line_scratch(int width) { return width + 2 * max_reach + simd::lanes; }
 
+/// The same for a line of 16-bit numbers: two planes of half the columns.
+constexpr int word_line_scratch(int width) {
+    return 2 * ((width + 2 * max_reach + 2 * simd::lanes + 1) / 2 * 2);
+}
+
 namespace simd {
 
 /// One row of pixels in the caller's scratch. at(x) may be asked for columns -max_reach to width - 1 +
@@ -37,6 +42,9 @@ public:
     [[gnu::always_inline]] void put(int x, Bytes pixels) { pixels.store(first_ + x); }
     [[gnu::always_inline]] Bytes at(int x) const { return Bytes::load(first_ + x); }
 
+    std::uint8_t value(int x) const { return first_[x]; }
+    void set(int x, std::uint8_t value) { first_[x] = value; }
+
     /// Repeats the outermost of width pixels reach times on either side.
     void replicate(int width, int reach) {
         std::memset(first_ - reach, first_[0], static_cast<std::size_t>(reach));
@@ -45,6 +53,53 @@ public:
 
 private:
     std::uint8_t* first_;
+};
+
+/// One row of numbers of 16 bits, even and odd columns in a plane each. at(x + s) is wanted for even x alone,
+/// s from -max_reach to max_reach.
+class WordLine {
+public:
+    /// scratch holds word_line_scratch(width) bytes, of any alignment.
+    WordLine(Span<std::uint8_t> scratch, int width) {
+        FOVEA_ASSERT(scratch.size() >= word_line_scratch(width));
+        even_ = scratch.data() + max_reach;
+        odd_ = even_ + word_line_scratch(width) / 2;
+    }
+    [[gnu::always_inline]] void put(int x, Words words) {
+        std::memcpy(even_ + x, &words.even, sizeof words.even);
+        std::memcpy(odd_ + x, &words.odd, sizeof words.odd);
+    }
+    /// The numbers from column x + shift on; x even.
+    template <int Shift>
+    [[gnu::always_inline]] Words at(int x) const {
+        if constexpr (Shift % 2 == 0)
+            return {raw(even_ + x + Shift), raw(odd_ + x + Shift)};
+        else
+            return {raw(odd_ + x + Shift - 1), raw(even_ + x + Shift + 1)};
+    }
+    /// The same where the shift is not a constant.
+    [[gnu::always_inline]] Words at(int x, int shift) const {
+        if ((shift & 1) == 0) return {raw(even_ + x + shift), raw(odd_ + x + shift)};
+        return {raw(odd_ + x + shift - 1), raw(even_ + x + shift + 1)};
+    }
+    std::uint16_t value(int x) const {
+        std::uint16_t value;
+        std::memcpy(&value, place(x), sizeof value);
+        return value;
+    }
+    void set(int x, std::uint16_t value) { std::memcpy(place(x), &value, sizeof value); }
+
+private:
+    // Column x of its plane lies at byte 2 * (x / 2), which is x or x - 1.
+    [[gnu::always_inline]] static RawWords raw(const std::uint8_t* from) {
+        RawWords words;
+        std::memcpy(&words, from, sizeof words);
+        return words;
+    }
+    std::uint8_t* place(int x) const { return (x & 1 ? odd_ - 1 : even_) + x; }
+
+    std::uint8_t* even_;
+    std::uint8_t* odd_;
 };
 
 /// Calls visit(x, count) for every vector of a row: count is lanes but for the last, partial one.

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// The catalogue's entries of filter/.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/catalogue/operator.hpp>
+#include <fovea/filter/box.hpp>
+#include <fovea/filter/gaussian.hpp>
+#include <fovea/filter/laplacian.hpp>
+#include <fovea/filter/median.hpp>
+#include <fovea/filter/sobel.hpp>
+#include <fovea/image/border.hpp>
+#include <fovea/image/pixel.hpp>
+
+namespace fovea {
+inline namespace FOVEA_ISA {
+namespace catalogue {
+
+inline constexpr OperatorParameter border_choice{
+    "border", 0, 2, 0, 1, "what stands outside the image", "replicate|reflect_101|zero"};
+
+constexpr Border border_of(int value) {
+    return value == 1 ? Border::reflect_101 : value == 2 ? Border::zero : Border::replicate;
+}
+
+/// The entry of a filter whose one parameter is the border.
+template <class Pixel, Status (*filter)(ImageView<const Gray8>, Border, Span<std::uint8_t>, ImageView<Pixel>),
+          std::int64_t (*needs)(Size)>
+constexpr Operator filter_entry(const char* name, const char* summary, const char* book, PixelKind output) {
+    return {name,
+            summary,
+            book,
+            {PixelKind::gray8},
+            output,
+            {border_choice},
+            nullptr,
+            [](Size size, const int*) { return needs(size); },
+            [](const OperatorCall& c) {
+                return filter(c.input<Gray8>(), border_of(c.values[0]), c.scratch, c.out<Pixel>());
+            }};
+}
+
+inline constexpr Operator filter[] = {
+    filter_entry<Gray8, gaussian_3x3, gaussian_3x3_scratch>(
+        "gaussian_3x3", "mean weighed by 1 2 1 in both directions", "2.6.2", PixelKind::gray8),
+    filter_entry<Gray8, gaussian_5x5, gaussian_5x5_scratch>(
+        "gaussian_5x5", "mean weighed by 1 4 6 4 1 in both directions", "2.6.2", PixelKind::gray8),
+    filter_entry<Gray8, box_3x3, box_3x3_scratch>("box_3x3", "mean of 3x3 pixels", "2.6.2", PixelKind::gray8),
+    filter_entry<Gray8, box_5x5, box_5x5_scratch>("box_5x5", "mean of 5x5 pixels", "2.6.2", PixelKind::gray8),
+    {"box",
+     "mean over a rectangle",
+     "2.6.2",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {{"width", 1, max_window_rows, 7, 2, "columns of the rectangle, odd"},
+      {"height", 1, max_window_rows, 7, 2, "rows of the rectangle, odd"},
+      border_choice},
+     nullptr,
+     [](Size size, const int*) { return box_scratch(size); },
+     [](const OperatorCall& c) {
+         return box(c.input<Gray8>(), {c.values[0], c.values[1]}, border_of(c.values[2]), c.scratch,
+                    c.out<Gray8>());
+     }},
+    filter_entry<Gray8, median_3x3, median_3x3_scratch>("median_3x3", "median of 3x3 pixels", "",
+                                                        PixelKind::gray8),
+    filter_entry<Gray8, median_5x5, median_5x5_scratch>("median_5x5", "median of 5x5 pixels", "",
+                                                        PixelKind::gray8),
+    filter_entry<Gradient16, sobel_x, derivative_scratch>(
+        "sobel_x", "derivative to the right, smoothed by 1 2 1", "2.6.3", PixelKind::gradient16),
+    filter_entry<Gradient16, sobel_y, derivative_scratch>(
+        "sobel_y", "derivative downwards, smoothed by 1 2 1", "2.6.3", PixelKind::gradient16),
+    filter_entry<Gradient16, prewitt_x, derivative_scratch>(
+        "prewitt_x", "derivative to the right, smoothed by 1 1 1", "2.6.3", PixelKind::gradient16),
+    filter_entry<Gradient16, prewitt_y, derivative_scratch>(
+        "prewitt_y", "derivative downwards, smoothed by 1 1 1", "2.6.3", PixelKind::gradient16),
+    filter_entry<Gradient16, scharr_x, derivative_scratch>(
+        "scharr_x", "derivative to the right, smoothed by 3 10 3", "", PixelKind::gradient16),
+    filter_entry<Gradient16, scharr_y, derivative_scratch>(
+        "scharr_y", "derivative downwards, smoothed by 3 10 3", "", PixelKind::gradient16),
+    filter_entry<Gradient16, difference_x, derivative_scratch>(
+        "difference_x", "the right neighbour less the left", "2.6.3", PixelKind::gradient16),
+    filter_entry<Gradient16, difference_y, derivative_scratch>(
+        "difference_y", "the lower neighbour less the upper", "2.6.3", PixelKind::gradient16),
+    filter_entry<Gray8, sobel_magnitude, gradient_scratch>(
+        "sobel_magnitude", "|x| + |y| of Sobel's derivatives", "2.6.3", PixelKind::gray8),
+    filter_entry<Gray8, sobel_maximum, gradient_scratch>(
+        "sobel_maximum", "larger of |x| and |y| of Sobel's derivatives", "2.6.3", PixelKind::gray8),
+    filter_entry<Gray8, prewitt_maximum, gradient_scratch>(
+        "prewitt_maximum", "larger of |x| and |y| of Prewitt's derivatives", "2.6.3", PixelKind::gray8),
+    filter_entry<Gray8, difference_maximum, gradient_scratch>(
+        "difference_maximum", "larger of |x| and |y| of the differences of neighbours", "2.6.3",
+        PixelKind::gray8),
+    filter_entry<Gradient16, laplacian_4, laplacian_4_scratch>(
+        "laplacian_4", "four neighbours less four times the pixel", "2.6.3", PixelKind::gradient16),
+    filter_entry<Gradient16, laplacian_8, laplacian_8_scratch>(
+        "laplacian_8", "eight neighbours less eight times the pixel", "2.6.3", PixelKind::gradient16),
+};
+
+}  // namespace catalogue
+}  // namespace FOVEA_ISA
+}  // namespace fovea

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include <bench/operators.hpp>
+
+namespace fovea::bench {
+namespace {
+
+constexpr Sizes both = Sizes::vga_and_full_hd;
+
+// OpenCV with the same border, into the same pixels; its strength of a gradient takes five calls.
+const bool lines[] = {
+    add_operator(200, "gaussian_3x3", both, {},
+                 FOVEA_OPENCV(cv::GaussianBlur(in[0], out, {3, 3}, 0, 0, cv::BORDER_REPLICATE))),
+    add_operator(201, "gaussian_5x5", both, {},
+                 FOVEA_OPENCV(cv::GaussianBlur(in[0], out, {5, 5}, 0, 0, cv::BORDER_REPLICATE))),
+    add_operator(202, "box_3x3", both, {},
+                 FOVEA_OPENCV(cv::blur(in[0], out, {3, 3}, {-1, -1}, cv::BORDER_REPLICATE))),
+    add_operator(203, "box_5x5", both, {},
+                 FOVEA_OPENCV(cv::blur(in[0], out, {5, 5}, {-1, -1}, cv::BORDER_REPLICATE))),
+    add_operator(204, "box", both, {15, 15},
+                 FOVEA_OPENCV(cv::blur(in[0], out, {15, 15}, {-1, -1}, cv::BORDER_REPLICATE)), "box 15x15"),
+    add_operator(205, "box", both, {31, 31},
+                 FOVEA_OPENCV(cv::blur(in[0], out, {31, 31}, {-1, -1}, cv::BORDER_REPLICATE)), "box 31x31"),
+    add_operator(210, "median_3x3", both, {}, FOVEA_OPENCV(cv::medianBlur(in[0], out, 3))),
+    add_operator(211, "median_5x5", both, {}, FOVEA_OPENCV(cv::medianBlur(in[0], out, 5))),
+    add_operator(220, "sobel_x", both, {},
+                 FOVEA_OPENCV(cv::Sobel(in[0], out, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE))),
+    add_operator(221, "sobel_y", both, {},
+                 FOVEA_OPENCV(cv::Sobel(in[0], out, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE))),
+    add_operator(222, "scharr_x", both, {},
+                 FOVEA_OPENCV(cv::Scharr(in[0], out, CV_16S, 1, 0, 1, 0, cv::BORDER_REPLICATE))),
+    add_operator(223, "scharr_y", Sizes::vga, {},
+                 FOVEA_OPENCV(cv::Scharr(in[0], out, CV_16S, 0, 1, 1, 0, cv::BORDER_REPLICATE))),
+    add_operator(224, "prewitt_x", Sizes::vga, {}, {}),
+    add_operator(225, "prewitt_y", Sizes::vga, {}, {}),
+    add_operator(226, "difference_x", Sizes::vga, {}, {}),
+    add_operator(227, "difference_y", Sizes::vga, {}, {}),
+    add_operator(230, "sobel_magnitude", both, {}, FOVEA_OPENCV({
+                     static cv::Mat x, y, a, b;
+                     cv::Sobel(in[0], x, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
+                     cv::Sobel(in[0], y, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
+                     cv::convertScaleAbs(x, a);
+                     cv::convertScaleAbs(y, b);
+                     cv::add(a, b, out);
+                 })),
+    add_operator(231, "sobel_maximum", Sizes::vga, {}, {}),
+    add_operator(232, "prewitt_maximum", Sizes::vga, {}, {}),
+    add_operator(233, "difference_maximum", Sizes::vga, {}, {}),
+    add_operator(240, "laplacian_4", both, {},
+                 FOVEA_OPENCV(cv::Laplacian(in[0], out, CV_16S, 1, 1, 0, cv::BORDER_REPLICATE))),
+    add_operator(241, "laplacian_8", both, {}, {}),
+};
+
+}  // namespace
+}  // namespace fovea::bench
