@@ -24,8 +24,11 @@ def entries_of(catalogue):
     """Name of an entry -> its text."""
     found = {}
     for path in sorted(catalogue.glob("*.hpp")):
-        parts = re.split(r'\{"(\w+)",\s*"', path.read_text())
+        text = path.read_text()
+        parts = re.split(r'\{"(\w+)",\s*(?=")', text)
         found.update(zip(parts[1::2], parts[2::2]))
+        # Entries that a template makes of a function.
+        found.update((name, function) for function, name in re.findall(r'_entry<([^>]*)>\(\s*"(\w+)"', text))
     return found
 
 

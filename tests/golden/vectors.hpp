@@ -19,6 +19,7 @@
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/operator_vectors.hpp>
+#include <golden/stream_vectors.hpp>
 #include <golden/workspace.hpp>
 
 namespace fovea::golden {
@@ -44,6 +45,7 @@ inline constexpr Vector vectors[] = {
     {"simd/words", simd_words},
     {"image/row_kernel", image_row_kernel},
     {"image/views", image_views},
+    {"stream/filters", stream_filters},
     {"pixelwise/threshold", pixelwise_threshold},
     {"pixelwise/to_gray", pixelwise_to_gray},
     {"statistics/histogram", statistics_histogram},

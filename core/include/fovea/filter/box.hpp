@@ -16,7 +16,7 @@
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
 #include <fovea/simd/lines.hpp>
-#include <fovea/simd/unroll.hpp>
+#include <fovea/stream/stage.hpp>
 
 namespace fovea {
 
@@ -112,6 +112,7 @@ public:
         return levels * std::int64_t{word_line_scratch(width)};
     }
 
+    BoxRow() = default;
     BoxRow(Size element, Border border, Span<std::uint8_t> scratch, int width)
         : element_(element), border_(border), lines_{line(scratch, width, 0), line(scratch, width, 1),
                                                      line(scratch, width, 2), line(scratch, width, 3),
@@ -200,8 +201,8 @@ private:
         }
     }
 
-    Size element_;
-    Border border_;
+    Size element_{1, 1};
+    Border border_ = Border::replicate;
     simd::WordLine lines_[levels];
 };
 
@@ -233,6 +234,27 @@ inline Status box(ImageView<const Gray8> src, Size element, Border border, Span<
     for_each_row(src, border, kernel, dst, scratch.data());
     return Status::ok;
 }
+
+namespace stages {
+
+inline constexpr FilterStage<kernels::Box3x3> box_3x3;
+inline constexpr FilterStage<kernels::Box5x5> box_5x5;
+
+/// box() of an element, odd by odd, 1x1 to 63x63.
+struct box {
+    using Kernel = kernels::BoxRow;
+    using Input = Gray8;
+    using Output = Gray8;
+    Size element;
+
+    constexpr int rows() const { return element.height; }
+    static constexpr std::int64_t scratch(int width) { return Kernel::scratch(width); }
+    Kernel kernel(Border border, Span<std::uint8_t> bytes, int width) const {
+        return Kernel(element, border, bytes, width);
+    }
+};
+
+}  // namespace stages
 
 }  // namespace FOVEA_ISA
 }  // namespace fovea

@@ -12,6 +12,7 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/stream/stage.hpp>
 
 namespace fovea {
 
@@ -104,6 +105,11 @@ inline Status gaussian_5x5(ImageView<const Gray8> src, Border border, Span<std::
                            ImageView<Gray8> dst) {
     return filter_frame(kernels::Gaussian5x5(), src, border, scratch, dst);
 }
+
+namespace stages {
+inline constexpr FilterStage<kernels::Gaussian3x3> gaussian_3x3;
+inline constexpr FilterStage<kernels::Gaussian5x5> gaussian_5x5;
+}  // namespace stages
 
 }  // namespace FOVEA_ISA
 }  // namespace fovea

@@ -12,6 +12,7 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/stream/stage.hpp>
 
 namespace fovea {
 
@@ -92,6 +93,11 @@ inline Status laplacian_8(ImageView<const Gray8> src, Border border, Span<std::u
                           ImageView<Gradient16> dst) {
     return filter_frame(kernels::Laplacian8(), src, border, scratch, dst);
 }
+
+namespace stages {
+inline constexpr FilterStage<kernels::Laplacian4> laplacian_4;
+inline constexpr FilterStage<kernels::Laplacian8> laplacian_8;
+}  // namespace stages
 
 }  // namespace FOVEA_ISA
 }  // namespace fovea

@@ -14,6 +14,7 @@
 #include <fovea/simd/lanes.hpp>
 #include <fovea/simd/lines.hpp>
 #include <fovea/simd/unroll.hpp>
+#include <fovea/stream/stage.hpp>
 
 namespace fovea {
 
@@ -200,6 +201,11 @@ inline Status median_5x5(ImageView<const Gray8> src, Border border, Span<std::ui
                          ImageView<Gray8> dst) {
     return filter_frame(kernels::Median5x5(), src, border, scratch, dst);
 }
+
+namespace stages {
+inline constexpr FilterStage<kernels::Median3x3> median_3x3;
+inline constexpr FilterStage<kernels::Median5x5> median_5x5;
+}  // namespace stages
 
 }  // namespace FOVEA_ISA
 }  // namespace fovea

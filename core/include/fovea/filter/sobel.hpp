@@ -13,6 +13,7 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/stream/stage.hpp>
 
 namespace fovea {
 
@@ -236,6 +237,24 @@ inline Status difference_maximum(ImageView<const Gray8> src, Border border, Span
     return filter_frame(kernels::GradientStrength<kernels::NoWeights, kernels::HigherOf>(), src, border,
                         scratch, dst);
 }
+
+namespace stages {
+inline constexpr FilterStage<kernels::DerivativeX<kernels::SobelWeights>> sobel_x;
+inline constexpr FilterStage<kernels::DerivativeY<kernels::SobelWeights>> sobel_y;
+inline constexpr FilterStage<kernels::DerivativeX<kernels::PrewittWeights>> prewitt_x;
+inline constexpr FilterStage<kernels::DerivativeY<kernels::PrewittWeights>> prewitt_y;
+inline constexpr FilterStage<kernels::DerivativeX<kernels::ScharrWeights>> scharr_x;
+inline constexpr FilterStage<kernels::DerivativeY<kernels::ScharrWeights>> scharr_y;
+inline constexpr FilterStage<kernels::DerivativeX<kernels::NoWeights>> difference_x;
+inline constexpr FilterStage<kernels::DerivativeY<kernels::NoWeights>> difference_y;
+inline constexpr FilterStage<kernels::SobelMagnitude> sobel_magnitude;
+inline constexpr FilterStage<kernels::GradientStrength<kernels::SobelWeights, kernels::HigherOf>>
+    sobel_maximum;
+inline constexpr FilterStage<kernels::GradientStrength<kernels::PrewittWeights, kernels::HigherOf>>
+    prewitt_maximum;
+inline constexpr FilterStage<kernels::GradientStrength<kernels::NoWeights, kernels::HigherOf>>
+    difference_maximum;
+}  // namespace stages
 
 }  // namespace FOVEA_ISA
 }  // namespace fovea

@@ -43,6 +43,7 @@ public:
         return Filter::byte_lines * aligned(byte_line_scratch(width)) +
                Filter::word_lines * aligned(word_line_scratch(width)) + line_alignment - 1;
     }
+    FilterLines() = default;
     FilterLines(Span<std::uint8_t> bytes, int width)
         : FilterLines(from_aligned(bytes), width, std::make_integer_sequence<int, Filter::byte_lines>(),
                       std::make_integer_sequence<int, Filter::word_lines>()) {}
@@ -97,8 +98,8 @@ private:
     template <class Line, int Count>
     using Lines =
         std::conditional_t<Count == 0, None, Line[static_cast<std::size_t>(Count == 0 ? 1 : Count)]>;
-    Lines<simd::ByteLine, Filter::byte_lines> bytes_;
-    Lines<simd::WordLine, Filter::word_lines> words_;
+    Lines<simd::ByteLine, Filter::byte_lines> bytes_{};
+    Lines<simd::WordLine, Filter::word_lines> words_{};
 };
 
 /// The row kernel of Filter.
@@ -111,6 +112,7 @@ public:
     /// Bytes of scratch: the lines.
     static constexpr std::int64_t scratch(int width) { return FilterLines<Filter>::scratch(width); }
 
+    FilterRow() = default;
     FilterRow(const Filter& filter, Border border, Span<std::uint8_t> scratch, int width)
         : filter_(filter), border_(border), lines_(scratch, width) {
         // across() also computes columns beyond the end, which nobody stores. What stands there must be
@@ -170,9 +172,9 @@ private:
         filter_.down(lines, x, ((void)I, simd::Bytes::all(0))...);
     }
 
-    Filter filter_;
-    Border border_;
-    FilterLines<Filter> lines_;
+    Filter filter_{};
+    Border border_ = Border::replicate;
+    FilterLines<Filter> lines_{};
 };
 
 /// Bytes of scratch that filter_frame() needs: the lines, and a row of zeros.

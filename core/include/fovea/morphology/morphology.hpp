@@ -80,6 +80,7 @@ public:
     using Input = Gray8;
     using Output = Gray8;
 
+    ExtremeRow() = default;
     ExtremeRow(Size element, Span<std::uint8_t> scratch, int width)
         : element_(element), line_(scratch, width) {}
 
@@ -153,7 +154,7 @@ private:
         });
     }
 
-    Size element_;
+    Size element_{1, 1};
     simd::ByteLine line_;
 };
 

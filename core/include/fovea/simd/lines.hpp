@@ -34,6 +34,7 @@ namespace simd {
 /// max_reach.
 class ByteLine {
 public:
+    ByteLine() = default;
     /// scratch holds byte_line_scratch(width) bytes.
     ByteLine(Span<std::uint8_t> scratch, int width) : first_(scratch.data() + max_reach) {
         FOVEA_ASSERT(scratch.size() >= byte_line_scratch(width));
@@ -52,13 +53,14 @@ public:
     }
 
 private:
-    std::uint8_t* first_;
+    std::uint8_t* first_ = nullptr;
 };
 
 /// One row of numbers of 16 bits, even and odd columns in a plane each. at(x + s) is wanted for even x alone,
 /// s from -max_reach to max_reach.
 class WordLine {
 public:
+    WordLine() = default;
     /// scratch holds word_line_scratch(width) bytes, of any alignment.
     WordLine(Span<std::uint8_t> scratch, int width) {
         FOVEA_ASSERT(scratch.size() >= word_line_scratch(width));
@@ -98,8 +100,8 @@ private:
     }
     std::uint8_t* place(int x) const { return (x & 1 ? odd_ - 1 : even_) + x; }
 
-    std::uint8_t* even_;
-    std::uint8_t* odd_;
+    std::uint8_t* even_ = nullptr;
+    std::uint8_t* odd_ = nullptr;
 };
 
 /// Calls visit(x, count) for every vector of a row: count is lanes but for the last, partial one.
