@@ -34,10 +34,12 @@ private:
     std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(sizeof(Pixel)) * size.width; }
 };
 
-/// Reads a picture as brightness. If there is none, problem says why and the picture is empty.
-template <class Storage>
-bool load_gray(Storage& storage, const std::string& name, Picture<Gray8>& picture, std::string& problem) {
-    picture = Picture<Gray8>();
+/// Reads a picture as brightness or as colour, with sides of at most most_side pixels. If there is none,
+/// problem says why and the picture is empty.
+template <class Pixel, class Storage>
+bool load_picture(Storage& storage, const std::string& name, int most_side, Picture<Pixel>& picture,
+                  std::string& problem) {
+    picture = Picture<Pixel>();
     const Result<Span<const std::uint8_t>> bytes = storage.load(name.c_str());
     if (!bytes) {
         problem = file_problem(name, bytes.status(), storage);
@@ -52,23 +54,29 @@ bool load_gray(Storage& storage, const std::string& name, Picture<Gray8>& pictur
     }
     const Result<PictureInfo> info = inspect_picture(*bytes);
     Status status = info.status();
-    if (info && (info->size.width > max_moment_side || info->size.height > max_moment_side))
+    if (info && (info->size.width > most_side || info->size.height > most_side))
         status = Status::image_too_large;
     if (status == Status::ok) {
-        picture = Picture<Gray8>(info->size);
+        picture = Picture<Pixel>(info->size);
         std::vector<std::uint8_t> scratch(static_cast<std::size_t>(info->scratch_bytes));
         status = decode_picture(*bytes, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())},
                                 picture.view());
     }
     if (status == Status::ok) return true;
-    picture = Picture<Gray8>();
+    picture = Picture<Pixel>();
     problem = name + ": " + describe(status) + " (" + describe(format) + ")";
     if (status == Status::unsupported)
         problem +=
             format == PictureFormat::jpeg ? "; save it as PNG or as baseline JPEG" : "; save it as PNG";
     if (status == Status::image_too_large)
-        problem += "; sides are at most " + std::to_string(max_moment_side) + " pixels";
+        problem += "; sides are at most " + std::to_string(most_side) + " pixels";
     return false;
+}
+
+/// Reads a picture to measure in, as brightness.
+template <class Storage>
+bool load_gray(Storage& storage, const std::string& name, Picture<Gray8>& picture, std::string& problem) {
+    return load_picture(storage, name, max_moment_side, picture, problem);
 }
 
 /// True if a name ends with one of the endings in "a|b|c", capitals or not.

@@ -11,6 +11,9 @@
 #include <gauge/gauge_command.hpp>
 #include <gauge/teach_command.hpp>
 #include <make_part/make_part_command.hpp>
+#include <op/op_command.hpp>
+#include <op/ops_command.hpp>
+#include <op/picture_commands.hpp>
 
 #ifndef FOVEA_VERSION
 #define FOVEA_VERSION "unknown"
@@ -30,7 +33,11 @@ template <class Io>
 std::vector<Entry<Io>> commands() {
     return {{gauge_help(), gauge_command<Io>},
             {teach_help(), teach_command<Io>},
-            {make_part_help(), make_part_command<Io>}};
+            {make_part_help(), make_part_command<Io>},
+            {op_help(), op_command<Io>},
+            {ops_help(), ops_command<Io>},
+            {info_help(), info_command<Io>},
+            {compare_help(), compare_command<Io>}};
 }
 
 template <class Io>

@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
-#include <fovea/catalogue/catalogue.hpp>
+#include <fovea/catalogue/operator.hpp>
 
 #include <bench/harness.hpp>
 #include <bench/opencv.hpp>
 #include <bench/pictures.hpp>
+#include <op/all_operators.hpp>
 
 namespace fovea::bench {
 
@@ -74,7 +75,7 @@ inline std::vector<std::uint8_t> operator_picture(PixelKind kind, Size size, int
 inline bool add_operator(int order, const std::string& name, Sizes sizes, const std::vector<int>& values,
                          [[maybe_unused]] Peer peer, const std::string& title = "") {
     return add(order, title.empty() ? name : title, sizes, [=](Row& row) {
-        const Operator* op = find_operator(name.c_str());
+        const Operator* op = find_operator(apps::all_operators(), name.c_str());
         if (op == nullptr) {
             std::fprintf(stderr, "bench: no operator is called %s\n", name.c_str());
             std::exit(2);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <fovea/base/random.hpp>
-#include <fovea/catalogue/catalogue.hpp>
+#include <fovea/catalogue/operator.hpp>
 
 namespace fovea::test {
 

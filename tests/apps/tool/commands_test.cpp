@@ -29,7 +29,7 @@ protected:
     TestIo io;
 };
 
-const Words names = {"gauge", "teach", "make-part"};
+const Words names = {"gauge", "teach", "make-part", "op", "ops", "info", "compare"};
 
 TEST_F(Tool, ListsItsCommandsWhenAskedForHelp) {
     for (const char* word : {"--help", "-h", "help"}) {

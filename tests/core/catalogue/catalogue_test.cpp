@@ -9,7 +9,8 @@
 #include <vector>
 
 #include <fovea/base/random.hpp>
-#include <fovea/catalogue/catalogue.hpp>
+#include <fovea/catalogue/operator.hpp>
+#include <op/all_operators.hpp>
 #include <support/guarded_image.hpp>
 #include <support/operator_run.hpp>
 
@@ -22,7 +23,7 @@ namespace {
 
 std::vector<const Operator*> all_operators() {
     std::vector<const Operator*> all;
-    for (const OperatorFamily& family : operator_families)
+    for (const OperatorFamily& family : apps::all_operators())
         for (const Operator& op : family.operators) all.push_back(&op);
     return all;
 }
@@ -179,11 +180,11 @@ TEST(Catalogue, HasUniqueNamesThatAreFound) {
     std::set<std::string> names;
     for (const Operator* op : all_operators()) {
         EXPECT_TRUE(names.insert(op->name).second) << op->name;
-        EXPECT_EQ(find_operator(op->name), op);
+        EXPECT_EQ(find_operator(apps::all_operators(), op->name), op);
     }
-    EXPECT_EQ(find_operator("erod"), nullptr);
-    EXPECT_EQ(find_operator("erodes"), nullptr);
-    EXPECT_EQ(find_operator(""), nullptr);
+    EXPECT_EQ(find_operator(apps::all_operators(), "erod"), nullptr);
+    EXPECT_EQ(find_operator(apps::all_operators(), "erodes"), nullptr);
+    EXPECT_EQ(find_operator(apps::all_operators(), ""), nullptr);
 }
 
 TEST(Catalogue, HasAChoiceForEveryValueOfOne) {

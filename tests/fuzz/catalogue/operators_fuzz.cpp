@@ -7,7 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include <fovea/catalogue/catalogue.hpp>
+#include <fovea/catalogue/operator.hpp>
+#include <op/all_operators.hpp>
 #include <support/operator_run.hpp>
 
 using namespace fovea;
@@ -33,7 +34,7 @@ private:
 const Operator& pick(Bytes& bytes) {
     static const std::vector<const Operator*> all = [] {
         std::vector<const Operator*> list;
-        for (const OperatorFamily& family : operator_families)
+        for (const OperatorFamily& family : apps::all_operators())
             for (const Operator& op : family.operators) list.push_back(&op);
         return list;
     }();

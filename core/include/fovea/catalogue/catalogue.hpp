@@ -11,12 +11,6 @@
 
 namespace fovea {
 
-/// A folder of the core and its operators.
-struct OperatorFamily {
-    const char* name;
-    Span<const Operator> operators;
-};
-
 inline namespace FOVEA_ISA {
 
 /// All families, in the order of core/layers.txt.
@@ -27,19 +21,7 @@ inline constexpr OperatorFamily operator_families[] = {
 };
 
 /// The operator of a name; null if there is none.
-constexpr const Operator* find_operator(const char* name) {
-    for (const OperatorFamily& family : operator_families)
-        for (const Operator& op : family.operators) {
-            const char* a = op.name;
-            const char* b = name;
-            while (*a != '\0' && *a == *b) {
-                ++a;
-                ++b;
-            }
-            if (*a == *b) return &op;
-        }
-    return nullptr;
-}
+constexpr const Operator* find_operator(const char* name) { return find_operator(operator_families, name); }
 
 }  // namespace FOVEA_ISA
 }  // namespace fovea

@@ -55,7 +55,7 @@ inline constexpr Operator filter[] = {
      {PixelKind::gray8},
      PixelKind::gray8,
      {{"width", 1, max_window_rows, 7, 2, "columns of the rectangle, odd"},
-      {"height", 1, max_window_rows, 7, 2, "rows of the rectangle, odd"},
+      {"height", 1, max_window_rows, 7, 2, "rows of the rectangle, odd", nullptr, true},
       border_choice},
      nullptr,
      [](Size size, const int*) { return box_scratch(size); },

@@ -15,8 +15,8 @@ namespace catalogue {
 
 inline constexpr OperatorParameter element_width{"width", 1, max_element_side,
                                                  3,       2, "columns of the element, odd"};
-inline constexpr OperatorParameter element_height{"height", 1, max_element_side,
-                                                  3,        2, "rows of the element, odd"};
+inline constexpr OperatorParameter element_height{
+    "height", 1, max_element_side, 3, 2, "rows of the element, odd", nullptr, true};
 
 inline constexpr Operator morphology[] = {
     {"erode",

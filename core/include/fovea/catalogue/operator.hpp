@@ -48,6 +48,7 @@ struct OperatorParameter {
     int step = 1;
     const char* text = "";          ///< unit and meaning, one line
     const char* choices = nullptr;  ///< for names instead of numbers: "replicate|reflect_101", from 0 on
+    bool follows = false;           ///< where nobody gives it, it is what the one before it is
 
     constexpr bool allows(int value) const {
         return value >= least && value <= most && (value - least) % step == 0;
@@ -114,6 +115,15 @@ struct Operator {
     }
 };
 
+/// A folder of the core and its operators.
+struct OperatorFamily {
+    const char* name;
+    Span<const Operator> operators;
+};
+
+/// The operator of a name among families; null if there is none.
+constexpr const Operator* find_operator(Span<const OperatorFamily> families, const char* name);
+
 /// Runs an operator after its entry's checks: parameters in their range, all views there and of fitting size,
 /// scratch enough.
 ///
@@ -155,6 +165,20 @@ constexpr const char* describe(PixelKind kind) {
         case PixelKind::sum32: return "sum32";
     }
     return "unknown";
+}
+
+constexpr const Operator* find_operator(Span<const OperatorFamily> families, const char* name) {
+    for (const OperatorFamily& family : families)
+        for (const Operator& op : family.operators) {
+            const char* a = op.name;
+            const char* b = name;
+            while (*a != '\0' && *a == *b) {
+                ++a;
+                ++b;
+            }
+            if (*a == *b) return &op;
+        }
+    return nullptr;
 }
 
 inline Status run_operator(const Operator& op, const OperatorCall& call) {
