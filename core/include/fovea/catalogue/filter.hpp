@@ -8,6 +8,7 @@
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/filter/box.hpp>
 #include <fovea/filter/gaussian.hpp>
+#include <fovea/filter/gaussian_sigma.hpp>
 #include <fovea/filter/laplacian.hpp>
 #include <fovea/filter/median.hpp>
 #include <fovea/filter/sobel.hpp>
@@ -47,6 +48,18 @@ inline constexpr Operator filter[] = {
         "gaussian_3x3", "mean weighed by 1 2 1 in both directions", "2.6.2", PixelKind::gray8),
     filter_entry<Gray8, gaussian_5x5, gaussian_5x5_scratch>(
         "gaussian_5x5", "mean weighed by 1 4 6 4 1 in both directions", "2.6.2", PixelKind::gray8),
+    {"gaussian",
+     "mean weighed by a Gaussian of any sigma",
+     "2.6.2",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {{"sigma", 30, 1000, 100, 1, "standard deviation, 1/100 px"}, border_choice},
+     nullptr,
+     [](Size size, const int*) { return gaussian_scratch(size); },
+     [](const OperatorCall& c) {
+         return gaussian(c.input<Gray8>(), SubPixel::from_ratio(c.values[0], 100), border_of(c.values[1]),
+                         c.scratch, c.out<Gray8>());
+     }},
     filter_entry<Gray8, box_3x3, box_3x3_scratch>("box_3x3", "mean of 3x3 pixels", "2.6.2", PixelKind::gray8),
     filter_entry<Gray8, box_5x5, box_5x5_scratch>("box_5x5", "mean of 5x5 pixels", "2.6.2", PixelKind::gray8),
     {"box",
