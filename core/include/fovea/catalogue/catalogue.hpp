@@ -7,6 +7,7 @@
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/catalogue/pixelwise.hpp>
+#include <fovea/catalogue/warp.hpp>
 
 namespace fovea {
 
@@ -22,6 +23,7 @@ inline namespace FOVEA_ISA {
 inline constexpr OperatorFamily operator_families[] = {
     {"pixelwise", catalogue::pixelwise},
     {"morphology", catalogue::morphology},
+    {"warp", catalogue::warp},
 };
 
 /// The operator of a name; null if there is none.
