@@ -32,8 +32,8 @@ inline void warp_transforms(Workspace& work, Digest& digest) {
     static_cast<void>(work);
     Random random(41);
     for (int i = 0; i < 40; ++i) {
-        const AffineTransform turn =
-            rotation_about(warp_place(random, 600), FineAngle::from_raw(random.next()));
+        const FinePoint centre = warp_place(random, 600);
+        const AffineTransform turn = rotation_about(centre, FineAngle::from_raw(random.next()));
         FinePoint from[4];
         FinePoint to[4];
         for (int k = 0; k < 4; ++k) {
