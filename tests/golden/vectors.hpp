@@ -20,6 +20,7 @@
 #include <golden/measure_vectors.hpp>
 #include <golden/operator_vectors.hpp>
 #include <golden/stream_vectors.hpp>
+#include <golden/warp_vectors.hpp>
 #include <golden/workspace.hpp>
 
 namespace fovea::golden {
@@ -54,6 +55,9 @@ inline constexpr Vector vectors[] = {
     {"statistics/polygon_symmetry", statistics_polygon_symmetry},
     {"morphology/rectangles", morphology_rectangles},
     {"warp/bilinear", warp_bilinear},
+    {"warp/homographies", warp_homographies},
+    {"warp/maps", warp_maps},
+    {"warp/transforms", warp_transforms},
     {"segment/connected_components", segment_connected_components},
     {"segment/fine_moments", segment_fine_moments},
     {"segment/level_contour", segment_level_contour},

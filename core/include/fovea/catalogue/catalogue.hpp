@@ -8,6 +8,7 @@
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/catalogue/pixelwise.hpp>
+#include <fovea/catalogue/warp.hpp>
 
 namespace fovea {
 
@@ -18,6 +19,7 @@ inline constexpr OperatorFamily operator_families[] = {
     {"pixelwise", catalogue::pixelwise},
     {"filter", catalogue::filter},
     {"morphology", catalogue::morphology},
+    {"warp", catalogue::warp},
 };
 
 /// The operator of a name; null if there is none.
