@@ -8,6 +8,7 @@
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/morphology/morphology.hpp>
+#include <fovea/morphology/top_hat.hpp>
 
 namespace fovea {
 inline namespace FOVEA_ISA {
@@ -65,6 +66,42 @@ inline constexpr Operator morphology[] = {
          return closing(c.input<Gray8>(), {c.values[0], c.values[1]}, c.scratch, c.out<Gray8>());
      },
      true},
+    {"top_hat",
+     "what is bright and smaller than a rectangle, on any ground",
+     "2.7.3",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {element_width, element_height},
+     nullptr,
+     [](Size size, const int*) { return top_hat_scratch(size); },
+     [](const OperatorCall& c) {
+         return top_hat(c.input<Gray8>(), {c.values[0], c.values[1]}, c.scratch, c.out<Gray8>());
+     },
+     true},
+    {"black_hat",
+     "what is dark and smaller than a rectangle, on any ground",
+     "2.7.3",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {element_width, element_height},
+     nullptr,
+     [](Size size, const int*) { return black_hat_scratch(size); },
+     [](const OperatorCall& c) {
+         return black_hat(c.input<Gray8>(), {c.values[0], c.values[1]}, c.scratch, c.out<Gray8>());
+     },
+     true},
+    {"morphological_gradient",
+     "dilation less erosion: the outline of things",
+     "2.7.2",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {element_width, element_height},
+     nullptr,
+     [](Size size, const int*) { return morphological_gradient_scratch(size); },
+     [](const OperatorCall& c) {
+         return morphological_gradient(c.input<Gray8>(), {c.values[0], c.values[1]}, c.scratch,
+                                       c.out<Gray8>());
+     }},
 };
 
 }  // namespace catalogue
