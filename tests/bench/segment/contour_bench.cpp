@@ -4,6 +4,7 @@
 #include <fovea/segment/connected_components.hpp>
 #include <fovea/segment/contour.hpp>
 #include <fovea/segment/convex_hull.hpp>
+#include <fovea/segment/find_contours.hpp>
 #include <fovea/segment/minimum_rectangle.hpp>
 #include <fovea/segment/polygon.hpp>
 
@@ -24,16 +25,18 @@ struct Room {
 };
 
 struct Found {
-    Room<Region> regions{2000};
-    Room<Hole> holes{2000};
+    Room<RegionOf<FirstMoments>> regions{2000};
+    Room<HoleOf<FirstMoments>> holes{2000};
     Room<Point> points{400000};
     Room<Contour> contours{4000};
 };
 
 void find(ImageView<const Gray8> binary, Span<std::uint8_t> scratch, Found& found) {
-    consume(connected_components(binary, {}, scratch, found.regions.list(), found.holes.list()));
-    consume(trace_contours(binary, Connectivity::eight, ContourPoints::all, found.regions.list().span(),
-                           found.holes.list().span(), found.points.list(), found.contours.list()));
+    consume(
+        connected_components<FirstMoments>(binary, {}, scratch, found.regions.list(), found.holes.list()));
+    consume(trace_contours<FirstMoments>(binary, Connectivity::eight, ContourPoints::all,
+                                         found.regions.list().span(), found.holes.list().span(),
+                                         found.points.list(), found.contours.list()));
 }
 
 Picture<Gray8> dark_part(Size size) {
@@ -45,7 +48,7 @@ Picture<Gray8> dark_part(Size size) {
 void time_contours(Row& row, Picture<Gray8> picture) {
     auto& src = row.keep(std::move(picture));
     auto& found = row.keep(Found());
-    auto& scratch = row.keep(bytes(connected_components_scratch(row.size().width)));
+    auto& scratch = row.keep(bytes(connected_components_scratch<FirstMoments>(row.size().width)));
     row.ours([&] { find(src.view(), span_of(scratch), found); });
 #if defined(FOVEA_HAVE_OPENCV)
     auto& contours = row.keep(std::vector<std::vector<cv::Point>>());
@@ -60,10 +63,31 @@ const bool discs_added = add(1820, "trace_contours, 400 discs", Sizes::vga_and_f
 const bool part_added = add(1821, "trace_contours, one part", Sizes::vga_and_full_hd,
                             [](Row& row) { time_contours(row, dark_part(row.size())); });
 
+void time_scan(Row& row, Picture<Gray8> picture) {
+    auto& src = row.keep(std::move(picture));
+    auto& found = row.keep(Found());
+    auto& scratch = row.keep(bytes(find_contours_scratch(row.size())));
+    row.ours([&] {
+        consume(find_contours(src.view(), Connectivity::eight, ContourPoints::all, span_of(scratch),
+                              found.points.list(), found.contours.list()));
+    });
+#if defined(FOVEA_HAVE_OPENCV)
+    auto& contours = row.keep(std::vector<std::vector<cv::Point>>());
+    row.peer("OpenCV", [a = mat(src), &contours] {
+        cv::findContours(a, contours, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
+    });
+#endif
+}
+
+const bool scan_discs_added = add(1818, "find_contours, 400 discs", Sizes::vga_and_full_hd,
+                                  [](Row& row) { time_scan(row, blobs(row.size())); });
+const bool scan_part_added = add(1819, "find_contours, one part", Sizes::vga_and_full_hd,
+                                 [](Row& row) { time_scan(row, dark_part(row.size())); });
+
 /// The longest contour of the part.
 Span<const Point> outline(Row& row, Found& found) {
     auto& src = row.keep(dark_part(row.size()));
-    auto& scratch = row.keep(bytes(connected_components_scratch(row.size().width)));
+    auto& scratch = row.keep(bytes(connected_components_scratch<FirstMoments>(row.size().width)));
     find(src.view(), span_of(scratch), found);
     Contour longest;
     for (const Contour& contour : found.contours.list())

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <core/segment/contour_pictures.hpp>
+#include <fovea/segment/connected_components.hpp>
 #include <fovea/segment/contour.hpp>
 #include <fovea/segment/polygon.hpp>
 
@@ -136,7 +137,7 @@ std::set<std::pair<int, int>> touching(ImageView<const Gray8> image, Connectivit
 
 TEST(TraceContours, VisitExactlyThePixelsThatTouchTheirGround) {
     Random random(51);
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < 50; ++round) {
         const Size size{random.between(1, 24), random.between(1, 20)};
         const auto image = random_blocks(size, random);
         for (const Connectivity connectivity : {Connectivity::eight, Connectivity::four}) {

@@ -12,7 +12,8 @@
 #include <fovea/base/status.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
-#include <fovea/segment/connected_components.hpp>
+#include <fovea/segment/region.hpp>
+#include <fovea/statistics/moments.hpp>
 
 namespace fovea {
 
@@ -79,9 +80,11 @@ Status trace_hole_border(ImageView<const std::uint8_t> binary, Connectivity conn
 /// Errors   empty_image; out_of_range or bad_argument if lists and image do not belong together;
 ///          capacity_exceeded when either list is full: all contours in the list are whole
 /// Source   trace_region_border(), trace_hole_border()
-inline Status trace_contours(ImageView<const std::uint8_t> binary, Connectivity connectivity,
-                             ContourPoints wanted, Span<const Region> regions, Span<const Hole> holes,
-                             ListView<Point> points, ListView<Contour> contours);
+template <class Accumulated = Moments>
+Status trace_contours(ImageView<const std::uint8_t> binary, Connectivity connectivity, ContourPoints wanted,
+                      NonDeduced<Span<const RegionOf<Accumulated>>> regions,
+                      NonDeduced<Span<const HoleOf<Accumulated>>> holes, ListView<Point> points,
+                      ListView<Contour> contours);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -103,17 +106,20 @@ public:
 
     Point at() const { return at_; }
     /// The first way, from `from` on clockwise, that leads to a pixel of the region; -1 if there is none.
-    int next_way(int from) const {
+    int next_way(int from) {
+        from_ = from;
         const bool inside =
             at_.x > 0 && at_.y > 0 && at_.x < binary_.width() - 1 && at_.y < binary_.height() - 1;
-        for (int i = 0; i < 8; i += Turn) {
-            const int code = (from + i) & 7;
+        for (looked_ = 0; looked_ < 8; looked_ += Turn) {
+            const int code = (from + looked_) & 7;
             if (!inside && !binary_.contains({at_.x + chain_steps[code].x, at_.y + chain_steps[code].y}))
                 continue;
             if (pixel_[offsets_[code]] != 0) return code;
         }
         return -1;
     }
+    /// Whether the last look went over the neighbour of this code, and found ground there.
+    bool passed(int code) const { return ((code - from_) & 7) < looked_; }
     void step(int code) {
         at_.x += chain_steps[code].x;
         at_.y += chain_steps[code].y;
@@ -125,33 +131,43 @@ private:
     Point at_;
     const std::uint8_t* pixel_;
     std::ptrdiff_t offsets_[8];
+    int from_ = 0;
+    int looked_ = 0;
 };
 
-/// The whole border from start, looking at first from the way of the ground beside it.
-template <int Turn, class Visit>
-void follow_border(ImageView<const std::uint8_t> binary, Point start, int ground, Visit visit) {
+/// The whole border from start, looking at first from the way of the ground beside it. After every look
+/// note(walk) may ask what was passed.
+template <int Turn, class Visit, class Note>
+void follow_border(ImageView<const std::uint8_t> binary, Point start, int ground, Visit visit, Note note) {
     BorderWalk<Turn> walk(binary, start);
     const int first = walk.next_way(ground);
     visit(start);
+    note(walk);
     if (first < 0) return;
     int way = first;
     for (;;) {
         walk.step(way);
-        // Behind is the pixel it came from; the one after it, clockwise, was ground or is looked at anew.
+        // Behind is the pixel it came from; what comes after it, clockwise, is looked at anew.
         way = walk.next_way((way + 4 + Turn) & 7);
+        note(walk);
         if (walk.at() == start && way == first) return;
         visit(walk.at());
     }
 }
 
-template <class Visit>
+template <class Visit, class Note>
 void follow_border(ImageView<const std::uint8_t> binary, Connectivity connectivity, Point start, int ground,
-                   Visit visit) {
+                   Visit visit, Note note) {
     if (connectivity == Connectivity::eight)
-        follow_border<1>(binary, start, ground, visit);
+        follow_border<1>(binary, start, ground, visit, note);
     else
-        follow_border<2>(binary, start, ground, visit);
+        follow_border<2>(binary, start, ground, visit, note);
 }
+/// For walks whose looks nobody asks for.
+struct NoNote {
+    template <class Walk>
+    void operator()(const Walk&) const {}
+};
 
 /// Takes the points of a contour as they come and lists those that are wanted.
 class ContourWriter {
@@ -222,7 +238,7 @@ Status trace_region_border(ImageView<const std::uint8_t> binary, Connectivity co
     const auto belongs = [&](int x, int y) { return binary.contains({x, y}) && binary(x, y) != 0; };
     if (!belongs(start.x, start.y) || belongs(start.x - 1, start.y) || belongs(start.x, start.y - 1))
         return Status::bad_argument;
-    detail::follow_border(binary, connectivity, start, 4, visit);
+    detail::follow_border(binary, connectivity, start, 4, visit, detail::NoNote());
     return Status::ok;
 }
 
@@ -233,13 +249,15 @@ Status trace_hole_border(ImageView<const std::uint8_t> binary, Connectivity conn
     if (!binary.contains(first)) return Status::out_of_range;
     if (first.x == 0 || binary(first.x, first.y) != 0 || binary(first.x - 1, first.y) == 0)
         return Status::bad_argument;
-    detail::follow_border(binary, connectivity, {first.x - 1, first.y}, 0, visit);
+    detail::follow_border(binary, connectivity, {first.x - 1, first.y}, 0, visit, detail::NoNote());
     return Status::ok;
 }
 
-inline Status trace_contours(ImageView<const std::uint8_t> binary, Connectivity connectivity,
-                             ContourPoints wanted, Span<const Region> regions, Span<const Hole> holes,
-                             ListView<Point> points, ListView<Contour> contours) {
+template <class Accumulated>
+Status trace_contours(ImageView<const std::uint8_t> binary, Connectivity connectivity, ContourPoints wanted,
+                      NonDeduced<Span<const RegionOf<Accumulated>>> regions,
+                      NonDeduced<Span<const HoleOf<Accumulated>>> holes, ListView<Point> points,
+                      ListView<Contour> contours) {
     if (binary.empty()) return Status::empty_image;
     points.clear();
     contours.clear();
@@ -262,7 +280,7 @@ inline Status trace_contours(ImageView<const std::uint8_t> binary, Connectivity 
         if (Status s = list(traced, contour); s != Status::ok) return s;
     }
     for (std::ptrdiff_t i = 0; i < holes.size(); ++i) {
-        const Hole& hole = holes[i];
+        const HoleOf<Accumulated>& hole = holes[i];
         if (hole.region < 0 || hole.region >= regions.size()) return Status::bad_argument;
         writer.begin();
         Contour contour;
