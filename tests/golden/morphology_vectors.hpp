@@ -29,11 +29,12 @@ inline void morphology_shapes(Workspace& work, Digest& digest) {
     digest.add(hook, hook.reflected(), hook.contains(0, 0), StructuringElement::from_text("##\n#"));
     const auto run = [&](ImageView<const Gray8> src, ImageView<Gray8> dst,
                          const StructuringElement& element) {
+        // How much scratch there must be differs by the width of a vector and of a pointer.
         const Span<std::uint8_t> scratch = work.scratch_span();
-        digest.add(erode(src, element, scratch, dst), dst);
-        digest.add(dilate(src, element, scratch, dst), dst);
-        digest.add(opening(src, element, scratch, dst), dst);
-        digest.add(closing(src, element, scratch, dst), dst);
+        digest.add(erode(src, element, scratch.first(erode_scratch(src.size(), element)), dst), dst);
+        digest.add(dilate(src, element, scratch.first(dilate_scratch(src.size(), element)), dst), dst);
+        digest.add(opening(src, element, scratch.first(opening_scratch(src.size(), element)), dst), dst);
+        digest.add(closing(src, element, scratch.first(closing_scratch(src.size(), element)), dst), dst);
     };
     for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8> dst) {
         for (const StructuringElement& element :

@@ -66,22 +66,29 @@ inline void segment_contours(Workspace& work, Digest& digest) {
         for (const Connectivity connectivity : {Connectivity::eight, Connectivity::four})
             for (const ContourPoints wanted : {ContourPoints::all, ContourPoints::corners}) {
                 Arena arena(work.scratch_span());
-                ScratchList<Point> points(arena, 1500);
+                ScratchList<Point> points(arena, 1200);
                 ScratchList<Contour> contours(arena, 150);
                 ScratchList<RegionOf<FirstMoments>> regions(arena, 60);
                 ScratchList<HoleOf<FirstMoments>> holes(arena, 60);
                 ComponentOptions options;
                 options.connectivity = connectivity;
-                digest.add(connected_components<FirstMoments>(image, options, arena.rest(), regions.list(),
-                                                              holes.list()));
+                digest.add(connected_components<FirstMoments>(
+                    image, options,
+                    arena.rest().first(connected_components_scratch<FirstMoments>(image.width())),
+                    regions.list(), holes.list()));
+                ConnectedComponentsOf<FirstMoments> rows(image.width(), options, arena.rest(), regions.list(),
+                                                         holes.list());
+                for (int y = 0; y < image.height(); ++y) digest.add(rows.add_row(image.row(y)));
+                digest.add(rows.finish());
                 for (const auto& region : regions.list()) digest.add(region);
                 for (const auto& hole : holes.list())
                     digest.add(hole.moments, hole.box, hole.first, hole.region);
                 digest.add(trace_contours<FirstMoments>(image, connectivity, wanted, regions.list().span(),
                                                         holes.list().span(), points.list(), contours.list()));
                 digest.add(points.list(), contours.list());
-                digest.add(
-                    find_contours(image, connectivity, wanted, arena.rest(), points.list(), contours.list()));
+                digest.add(find_contours(image, connectivity, wanted,
+                                         arena.rest().first(find_contours_scratch(image.size())),
+                                         points.list(), contours.list()));
                 digest.add(points.list(), contours.list());
                 const auto visit = [&](Point p) { digest.add(p); };
                 for (int x = 0; x < image.width(); x += 3) {

@@ -12,11 +12,11 @@ namespace {
 
 TEST(FilterRegion, AcceptsWhatIsCompactByHand) {
     const RegionFilter filter;
-    EXPECT_EQ(*filter_region(30, {0, 0, 10, 10}, filter), Verdict::accepted);
-    EXPECT_EQ(*filter_region(29, {0, 0, 10, 10}, filter), Verdict::rejected);
-    EXPECT_EQ(*filter_region(14, {0, 0, 7, 2}, filter), Verdict::accepted);
-    EXPECT_EQ(*filter_region(16, {0, 0, 2, 8}, filter), Verdict::rejected);
-    EXPECT_EQ(*filter_region(1, {5, 5, 1, 1}, filter), Verdict::accepted);
+    EXPECT_EQ(*filter_region(30, {0, 0, 10, 10}, filter), Compactness::compact);
+    EXPECT_EQ(*filter_region(29, {0, 0, 10, 10}, filter), Compactness::not_compact);
+    EXPECT_EQ(*filter_region(14, {0, 0, 7, 2}, filter), Compactness::compact);
+    EXPECT_EQ(*filter_region(16, {0, 0, 2, 8}, filter), Compactness::not_compact);
+    EXPECT_EQ(*filter_region(1, {5, 5, 1, 1}, filter), Compactness::compact);
 }
 
 TEST(FilterRegion, AreaLimitsAreInclusive) {
@@ -25,7 +25,7 @@ TEST(FilterRegion, AreaLimitsAreInclusive) {
     filter.area_max = 60;
     for (const int area : {49, 50, 60, 61})
         EXPECT_EQ(*filter_region(area, {0, 0, 10, 10}, filter),
-                  area >= 50 && area <= 60 ? Verdict::accepted : Verdict::rejected);
+                  area >= 50 && area <= 60 ? Compactness::compact : Compactness::not_compact);
 }
 
 TEST(FilterRegion, RefusesLimitsThatMakeNoSense) {

@@ -108,46 +108,62 @@ constexpr int most_doublings(const StructuringElement& element) {
     return most;
 }
 
+/// A window: where it begins, counted from the pixel in the middle, and how often its columns are doubled.
+struct ShapeWindow {
+    std::int8_t x = 0;
+    std::uint8_t row = 0;  ///< of the element
+    std::uint8_t doublings = 0;
+};
+
 /// The rows of the image that an element reaches, each with the extremes of 1, 2, 4 ... columns from each
 /// column on.
 template <class Extreme>
 class ShapedRows {
 public:
     ShapedRows(ImageView<const Gray8> src, const StructuringElement& element, Span<std::uint8_t> scratch)
-        : src_(src), element_(element), levels_(most_doublings(element) + 1), scratch_(scratch) {
-        const std::ptrdiff_t lines = element.size().height * levels_ + 1;
+        : src_(src), height_(element.size().height), levels_(most_doublings(element) + 1), scratch_(scratch) {
+        const std::ptrdiff_t lines = height_ * levels_ + 1;
         Arena arena(scratch_.from(lines * line_bytes()));
-        windows_ = arena.take<const std::uint8_t*>(windows_of(element));
+        pointers_ = arena.take<const std::uint8_t*>(windows_of(element));
+        windows_ = arena.take<ShapeWindow>(pointers_.size());
+        int count = 0;
+        for (int i = 0; i < height_; ++i)
+            for_each_run(element.row(i), [&](int x, int length) {
+                const int first = x - element.size().width / 2;
+                const int doublings = doublings_of(length);
+                const auto add = [&](int begin) {
+                    windows_[count++] = {static_cast<std::int8_t>(begin), static_cast<std::uint8_t>(i),
+                                         static_cast<std::uint8_t>(doublings)};
+                };
+                if (length <= longest_single_run) {
+                    for (int k = 0; k < length; ++k) add(first + k);
+                } else {
+                    add(first);
+                    add(first + length - (1 << doublings));
+                }
+            });
         std::memset(nothing(), Extreme::neutral, static_cast<std::size_t>(line_bytes()));
     }
 
     void make_row(int y, Gray8* dst) {
-        const int reach = element_.size().height / 2;
+        const int reach = height_ / 2;
         for (; loaded_ < src_.height() && loaded_ <= y + reach; ++loaded_) load(loaded_);
-        int count = 0;
-        for (int i = 0; i < element_.size().height; ++i) {
-            const int row = y + i - reach;
+        const std::ptrdiff_t bytes = line_bytes();
+        for (std::ptrdiff_t i = 0; i < windows_.size(); ++i) {
+            const ShapeWindow window = windows_[i];
+            const int row = y + window.row - reach;
             const bool inside = row >= 0 && row < src_.height();
-            for_each_run(element_.row(i), [&](int x, int length) {
-                const int first = x - element_.size().width / 2;
-                const int doublings = doublings_of(length);
-                const std::uint8_t* line = (inside ? line_of(row, doublings) : nothing()) + max_reach + first;
-                if (length <= longest_single_run) {
-                    for (int k = 0; k < length; ++k) windows_[count++] = line + k;
-                } else {
-                    windows_[count++] = line;
-                    windows_[count++] = line + length - (1 << doublings);
-                }
-            });
+            const std::uint8_t* line = inside ? line_of(row, 0) + window.doublings * bytes : nothing();
+            pointers_[i] = line + max_reach + window.x;
         }
-        join(windows_.data(), count, dst);
+        join(pointers_.data(), static_cast<int>(pointers_.size()), dst);
     }
 
 private:
     std::ptrdiff_t line_bytes() const { return static_cast<std::ptrdiff_t>(byte_line_scratch(src_.width())); }
     std::uint8_t* nothing() const { return scratch_.data(); }
     std::uint8_t* line_of(int row, int level) const {
-        return scratch_.data() + (1 + row % element_.size().height * levels_ + level) * line_bytes();
+        return scratch_.data() + (1 + row % height_ * levels_ + level) * line_bytes();
     }
     void load(int row) {
         const int width = src_.width();
@@ -194,10 +210,11 @@ private:
     }
 
     ImageView<const Gray8> src_;
-    const StructuringElement& element_;
+    int height_;
     int levels_;
     Span<std::uint8_t> scratch_;
-    Span<const std::uint8_t*> windows_;
+    Span<const std::uint8_t*> pointers_;
+    Span<ShapeWindow> windows_;
     int loaded_ = 0;
 };
 
@@ -221,8 +238,9 @@ void shaped_frame(ImageView<const Gray8> src, const StructuringElement& element,
 constexpr std::int64_t erode_scratch(Size size, const StructuringElement& element) {
     const std::int64_t lines =
         std::int64_t{element.size().height} * (kernels::most_doublings(element) + 1) + 1;
-    return lines * byte_line_scratch(size.width) +
-           arena_bytes<const std::uint8_t*>(kernels::windows_of(element));
+    const int windows = kernels::windows_of(element);
+    return lines * byte_line_scratch(size.width) + arena_bytes<const std::uint8_t*>(windows) +
+           arena_bytes<kernels::ShapeWindow>(windows);
 }
 
 inline Status erode(ImageView<const Gray8> src, const StructuringElement& element, Span<std::uint8_t> scratch,

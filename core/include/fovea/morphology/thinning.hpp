@@ -107,6 +107,15 @@ inline int skip_ground(const Gray8* row, int x, int width) {
     return x;
 }
 
+/// True if eight pixels from each of these on are set: the six in the middle of the middle row are inside.
+inline bool all_set(const Gray8* above, const Gray8* here, const Gray8* below) {
+    std::uint64_t a, b, c;
+    std::memcpy(&a, above, sizeof a);
+    std::memcpy(&b, here, sizeof b);
+    std::memcpy(&c, below, sizeof c);
+    return (a & b & c) == ~std::uint64_t{0};
+}
+
 /// One half of a pass, in place: above and here are rows as they were before, with a zero at either side.
 /// Answers whether a pixel went.
 inline bool thin_half(ImageView<Gray8> image, const std::uint8_t (&takes)[256], Gray8* above, Gray8* here) {
@@ -124,10 +133,13 @@ inline bool thin_half(ImageView<Gray8> image, const std::uint8_t (&takes)[256], 
         };
         const auto bit = [](const Gray8* pixels, int x) -> unsigned { return pixels[x + 1] != 0 ? 1 : 0; };
         for (int x = skip_ground(row, 0, width); x < width; x = skip_ground(row, x + 1, width)) {
+            if (below != nullptr && x > 0)
+                while (x + 7 <= width && all_set(above + x, here + x, below + x - 1)) x += 6;
+            if (x == width) break;
             const unsigned around = bit(above, x) | bit(above, x + 1) << 1 | bit(here, x + 1) << 2 |
                                     lower(x + 1) << 3 | lower(x) << 4 | lower(x - 1) << 5 |
                                     bit(here, x - 1) << 6 | bit(above, x - 1) << 7;
-            if (takes[around] == 0) continue;
+            if (row[x] == 0 || takes[around] == 0) continue;
             row[x] = 0;
             changed = true;
         }

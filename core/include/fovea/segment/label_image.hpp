@@ -120,8 +120,9 @@ inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity c
                 if (label == no_label) label = table.add();
                 if (label == no_label) return Status::capacity_exceeded;
             }
+            // The first pixel of a run remembers its piece until all are known.
             run.label = label;
-            for (int x = run.first; x < end; ++x) out[x] = label;
+            out[run.first] = label;
         }
         swap_values(above, here);
     }
@@ -129,11 +130,11 @@ inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity c
     for (int y = 0; y < src.height(); ++y) {
         static_cast<void>(here.split(src.row(y), width));
         Label16* out = dst.row(y);
-        for (int i = here.is_region(0) ? 0 : 1; i < here.count(); i += 2) {
-            const Label16 label = table[out[here[i].first]];
-            if (label == out[here[i].first]) continue;
+        for (int i = 0; i < here.count(); ++i) {
+            const int first = here[i].first;
+            const Label16 label = here.is_region(i) ? table[out[first]] : Label16{0};
             const int end = here.end(i);
-            for (int x = here[i].first; x < end; ++x) out[x] = label;
+            for (int x = first; x < end; ++x) out[x] = label;
         }
     }
     return regions;

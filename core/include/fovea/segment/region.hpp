@@ -81,7 +81,7 @@ struct RegionFilter {
     Ratio fill_min = Ratio::from_raw(19660);  ///< share of the box that the region fills, 0 to 1; 3/10, down
 };
 
-enum class Verdict : std::uint8_t { rejected, accepted };
+enum class Compactness : std::uint8_t { not_compact, compact };
 
 /// Whether a region of this area and box is compact: neither too small or large, nor thin, nor full of gaps.
 ///
@@ -89,7 +89,7 @@ enum class Verdict : std::uint8_t { rejected, accepted };
 /// Errors    bad_argument for limits that are negative or crossed, an aspect below 1, a share above 1, or an
 ///           empty box
 /// Source    the compact-region test of the IVT, with sides in pixels: there a side is one less
-constexpr Result<Verdict> filter_region(std::int64_t area, Rectangle box, const RegionFilter& filter);
+constexpr Result<Compactness> filter_region(std::int64_t area, Rectangle box, const RegionFilter& filter);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -110,7 +110,7 @@ constexpr FinePoint FirstMoments::centroid() const {
     return {FinePixel::from_ratio(m10, m00), FinePixel::from_ratio(m01, m00)};
 }
 
-constexpr Result<Verdict> filter_region(std::int64_t area, Rectangle box, const RegionFilter& filter) {
+constexpr Result<Compactness> filter_region(std::int64_t area, Rectangle box, const RegionFilter& filter) {
     if (filter.area_min < 0 || filter.area_min > filter.area_max || filter.side_min < 0 ||
         filter.aspect_max.raw() < Ratio::one || filter.fill_min.raw() < 0 ||
         filter.fill_min.raw() > Ratio::one || box.empty())
@@ -123,7 +123,7 @@ constexpr Result<Verdict> filter_region(std::int64_t area, Rectangle box, const 
         Int128::product(area, Ratio::one) < Int128::product(longer * shorter, filter.fill_min.raw());
     const bool wanted =
         area >= filter.area_min && area <= filter.area_max && shorter >= filter.side_min && !thin && !sparse;
-    return wanted ? Verdict::accepted : Verdict::rejected;
+    return wanted ? Compactness::compact : Compactness::not_compact;
 }
 
 }  // namespace fovea
