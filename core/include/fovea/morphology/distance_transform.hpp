@@ -24,12 +24,11 @@ inline constexpr Gray16 farthest_chamfer = 0xffff;
 
 /// Scratch bytes that squared_distance() needs: two numbers a column, and two more.
 constexpr std::int64_t squared_distance_scratch(Size size) {
-    return arena_bytes<std::int32_t>(size.width) +
-           arena_bytes<std::int32_t>(2 * std::int64_t{size.width} + 2);
+    return arena_bytes<int>(size.width) + arena_bytes<int>(2 * std::int64_t{size.width} + 2);
 }
 
 /// Scratch bytes that chamfer_distance() needs: none but for a row of steps.
-constexpr std::int64_t chamfer_distance_scratch(Size size) { return arena_bytes<std::int32_t>(size.width); }
+constexpr std::int64_t chamfer_distance_scratch(Size size) { return arena_bytes<int>(size.width); }
 
 /// The square of the distance from every pixel to the nearest zero pixel, exactly.
 ///
@@ -59,16 +58,16 @@ inline Status chamfer_distance(ImageView<const Gray8> src, Span<std::uint8_t> sc
 namespace detail {
 
 /// A column without ground: farther than any.
-inline constexpr std::int32_t no_ground_in_column = 1 << 20;
+inline constexpr int no_ground_in_column = 1 << 20;
 
 /// The lower envelope of the parabolas (x - i)^2 + down[i]^2 of one row.
 class DistanceRow {
 public:
     /// room for 2 * width + 2 numbers.
-    DistanceRow(Span<std::int32_t> room, int width) : tops_(room.data()), starts_(room.data() + width + 1) {}
+    DistanceRow(Span<int> room, int width) : tops_(room.data()), starts_(room.data() + width + 1) {}
 
     /// The values of columns first..last, where only these and what is around them counts.
-    void operator()(const std::int32_t* down, int first, int last, int width, Sum32* dst) {
+    void operator()(const int* down, int first, int last, int width, Sum32* dst) {
         count_ = 0;
         const int from = maximum(first - 1, 0);
         const int to = minimum(last + 1, width - 1);
@@ -80,8 +79,8 @@ public:
         }
         int x = to;
         for (int k = count_ - 1; k >= 0; --k) {
-            const std::int32_t top = tops_[k];
-            const std::int32_t square = down[top] * down[top];
+            const int top = tops_[k];
+            const int square = down[top] * down[top];
             const int lowest = maximum(starts_[k], first);
             for (x = minimum(x, last); x >= lowest; --x)
                 dst[x] = static_cast<Sum32>((x - top) * (x - top) + square);
@@ -89,19 +88,19 @@ public:
     }
 
 private:
-    static std::int64_t value(const std::int32_t* down, std::int32_t top, std::int32_t x) {
+    static std::int64_t value(const int* down, int top, int x) {
         return std::int64_t{x - top} * (x - top) + std::int64_t{down[top]} * down[top];
     }
-    void add(const std::int32_t* down, std::int32_t i, int last) {
+    void add(const int* down, int i, int last) {
         while (count_ > 0 &&
                value(down, tops_[count_ - 1], starts_[count_ - 1]) > value(down, i, starts_[count_ - 1]))
             --count_;
-        std::int32_t start = 0;
+        int start = 0;
         if (count_ > 0) {
             // The first column where parabola i is strictly lower than the one before it. Squares are below
             // 2^30, their sums below 2^31 in magnitude.
-            const std::int32_t top = tops_[count_ - 1];
-            const std::int32_t numerator = i * i - top * top + down[i] * down[i] - down[top] * down[top];
+            const int top = tops_[count_ - 1];
+            const int numerator = i * i - top * top + down[i] * down[i] - down[top] * down[top];
             start = floor_divide(numerator, 2 * (i - top)) + 1;
             if (start > last) return;
         }
@@ -110,8 +109,8 @@ private:
         ++count_;
     }
 
-    std::int32_t* tops_;
-    std::int32_t* starts_;
+    int* tops_;
+    int* starts_;
     int count_ = 0;
 };
 
@@ -131,10 +130,10 @@ inline Status squared_distance(ImageView<const Gray8> src, Span<std::uint8_t> sc
         s != Status::ok)
         return s;
     const int width = src.width();
-    constexpr std::int32_t none = detail::no_ground_in_column;
+    constexpr int none = detail::no_ground_in_column;
     Arena arena(scratch);
-    std::int32_t* down = arena.take<std::int32_t>(width).data();
-    detail::DistanceRow envelope(arena.take<std::int32_t>(2 * std::ptrdiff_t{width} + 2), width);
+    int* down = arena.take<int>(width).data();
+    detail::DistanceRow envelope(arena.take<int>(2 * std::ptrdiff_t{width} + 2), width);
     // Downwards: rows to the nearest zero pixel above, kept in dst.
     for (int y = 0; y < src.height(); ++y) {
         const Gray8* row = src.row(y);
@@ -150,9 +149,9 @@ inline Status squared_distance(ImageView<const Gray8> src, Span<std::uint8_t> sc
     for (int y = src.height() - 1; y >= 0; --y) {
         Sum32* out = dst.row(y);
         if (y == src.height() - 1)
-            for (int x = 0; x < width; ++x) down[x] = static_cast<std::int32_t>(out[x]);
+            for (int x = 0; x < width; ++x) down[x] = static_cast<int>(out[x]);
         else
-            for (int x = 0; x < width; ++x) down[x] = minimum(down[x] + 1, static_cast<std::int32_t>(out[x]));
+            for (int x = 0; x < width; ++x) down[x] = minimum(down[x] + 1, static_cast<int>(out[x]));
         for (int x = 0; x < width;) {
             if (down[x] == 0) {
                 out[x++] = 0;
@@ -174,8 +173,8 @@ inline Status chamfer_distance(ImageView<const Gray8> src, Span<std::uint8_t> sc
         return s;
     const int width = src.width();
     const int height = src.height();
-    constexpr std::int32_t most = farthest_chamfer;
-    std::int32_t* steps = Arena(scratch).take<std::int32_t>(width).data();
+    constexpr int most = farthest_chamfer;
+    int* steps = Arena(scratch).take<int>(width).data();
     /// steps[x] = the best way over the three neighbours in a row that is done.
     const auto over = [&](const Gray16* done) {
         for (int x = 1; x + 1 < width; ++x)
@@ -193,7 +192,7 @@ inline Status chamfer_distance(ImageView<const Gray8> src, Span<std::uint8_t> sc
             over(dst.row(y - 1));
         else
             for (int x = 0; x < width; ++x) steps[x] = most;
-        std::int32_t way = most;
+        int way = most;
         for (int x = 0; x < width; ++x) {
             way = minimum(way + 3, minimum(steps[x], most));
             way = row[x] == 0 ? 0 : way;
@@ -206,9 +205,9 @@ inline Status chamfer_distance(ImageView<const Gray8> src, Span<std::uint8_t> sc
             over(dst.row(y + 1));
         else
             for (int x = 0; x < width; ++x) steps[x] = most;
-        std::int32_t way = most;
+        int way = most;
         for (int x = width - 1; x >= 0; --x) {
-            way = minimum(way + 3, minimum<std::int32_t>(steps[x], out[x]));
+            way = minimum(way + 3, minimum<int>(steps[x], out[x]));
             out[x] = static_cast<Gray16>(way);
         }
     }

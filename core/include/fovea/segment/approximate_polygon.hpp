@@ -94,7 +94,7 @@ inline void mark_corners(Span<const Point> points, Stretch whole, SubPixel toler
                          Span<std::uint8_t> marks) {
     // A stretch that waits is at least as long as the one that is worked on, so each is at most half of the
     // one below it.
-    Stretch waiting[64];
+    Stretch waiting[32];
     int count = 0;
     Stretch stretch = whole;
     for (;;) {
