@@ -123,6 +123,7 @@ inline void simd_lanes(Workspace& work, Digest& digest) {
     simd::for_each_vector(70,
                           [&](int x, int count) { line.put(x, simd::Bytes::load(src.row(0) + x, count)); });
     line.replicate(70, max_reach);
+    FOVEA_ASSERT(line.pixels()[69] == src(69, 0));
     constexpr int widest = 64;
     for (int x = -max_reach; x + widest <= 70 + max_reach; ++x) {
         std::uint8_t pixels[simd::lanes];

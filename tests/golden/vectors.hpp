@@ -18,9 +18,11 @@
 #include <golden/draw_vectors.hpp>
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
+#include <golden/morphology_vectors.hpp>
 #include <golden/operator_vectors.hpp>
 #include <golden/stream_vectors.hpp>
 #include <golden/warp_vectors.hpp>
+#include <golden/segment_vectors.hpp>
 #include <golden/workspace.hpp>
 
 namespace fovea::golden {
@@ -54,13 +56,19 @@ inline constexpr Vector vectors[] = {
     {"statistics/polygon_moments", statistics_polygon_moments},
     {"statistics/polygon_symmetry", statistics_polygon_symmetry},
     {"morphology/rectangles", morphology_rectangles},
+    {"morphology/shapes", morphology_shapes},
+    {"morphology/thinning", morphology_thinning},
     {"warp/bilinear", warp_bilinear},
     {"warp/homographies", warp_homographies},
     {"warp/maps", warp_maps},
     {"warp/transforms", warp_transforms},
     {"segment/connected_components", segment_connected_components},
+    {"segment/contours", segment_contours},
     {"segment/fine_moments", segment_fine_moments},
+    {"segment/growing", segment_growing},
+    {"segment/label_image", segment_label_image},
     {"segment/level_contour", segment_level_contour},
+    {"segment/polygons", segment_polygons},
     {"segment/runs", segment_runs},
     {"measure/edge_probe", measure_edge_probe},
     {"measure/edge_straightness", measure_edge_straightness},

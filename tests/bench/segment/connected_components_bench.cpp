@@ -9,23 +9,24 @@ namespace fovea::bench {
 namespace {
 
 /// Room for the regions and holes of every picture here.
+template <class Accumulated>
 struct Lists {
-    std::vector<Region> regions = std::vector<Region>(100000);
-    std::vector<Hole> holes = std::vector<Hole>(100000);
+    std::vector<RegionOf<Accumulated>> regions = std::vector<RegionOf<Accumulated>>(100000);
+    std::vector<HoleOf<Accumulated>> holes = std::vector<HoleOf<Accumulated>>(100000);
     int region_count = 0;
     int hole_count = 0;
 };
 
+template <class Accumulated = Moments>
 void time_components(Row& row, Picture<Gray8> picture) {
     auto& src = row.keep(std::move(picture));
-    auto& lists = row.keep(Lists());
-    auto& scratch = row.keep(bytes(connected_components_scratch(row.size().width)));
+    auto& lists = row.keep(Lists<Accumulated>());
+    auto& scratch = row.keep(bytes(connected_components_scratch<Accumulated>(row.size().width)));
     row.ours([&] {
-        consume(connected_components(
+        consume(connected_components<Accumulated>(
             src.view(), {}, span_of(scratch),
-            ListView<Region>(lists.regions.data(), static_cast<int>(lists.regions.size()),
-                             &lists.region_count),
-            ListView<Hole>(lists.holes.data(), static_cast<int>(lists.holes.size()), &lists.hole_count)));
+            {lists.regions.data(), static_cast<int>(lists.regions.size()), &lists.region_count},
+            {lists.holes.data(), static_cast<int>(lists.holes.size()), &lists.hole_count}));
     });
 #if defined(FOVEA_HAVE_OPENCV)
     row.peer("OpenCV, with labels",
@@ -37,6 +38,21 @@ void time_components(Row& row, Picture<Gray8> picture) {
 
 const bool blobs_added = add(40, "connected components, 400 discs", Sizes::vga_and_full_hd,
                              [](Row& row) { time_components(row, blobs(row.size())); });
+
+const bool light_added =
+    add(1830, "connected components, 400 discs, area and centroid", Sizes::vga_and_full_hd,
+        [](Row& row) { time_components<FirstMoments>(row, blobs(row.size())); });
+
+Picture<Gray8> noise(Size size) {
+    Picture<Gray8> picture(size);
+    Random random(7);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) picture.view()(x, y) = random.below(2) == 0 ? 0 : 255;
+    return picture;
+}
+
+const bool noise_added = add(1831, "connected components, noise, area and centroid", Sizes::vga,
+                             [](Row& row) { time_components<FirstMoments>(row, noise(row.size())); });
 
 const bool plate_added = add(41, "connected components, one part", Sizes::vga, [](Row& row) {
     Picture<Gray8> picture = part(row.size());

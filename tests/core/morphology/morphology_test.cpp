@@ -108,6 +108,38 @@ TEST(Closing, FillsAHoleSmallerThanTheElement) {
         for (int x = 0; x < 9; ++x) EXPECT_EQ(dst(x, y), 255);
 }
 
+TEST(Opening, KeepsItsRowsThroughATallImage) {
+    // More rows than are kept between the two steps, with elements of every height.
+    Random random(10);
+    const Size size{19, 170};
+    for (const Size element : {Size{1, 1}, Size{3, 3}, Size{5, 15}, Size{3, 61}, Size{63, 63}}) {
+        GuardedImage<Gray8> src(size), low(size), expected(size), dst(size);
+        src.fill(random);
+        run(erode, erode_scratch(size), src, element, low);
+        run(dilate, dilate_scratch(size), low, element, expected);
+        run(opening, opening_scratch(size), src, element, dst);
+        EXPECT_TRUE(equal(expected.view(), dst.view())) << element.height;
+        run(opening, opening_scratch(size), src, element, src);
+        EXPECT_TRUE(equal(expected.view(), src.view())) << element.height;
+    }
+}
+
+TEST(Dilate, RefusesEvenElementsInsteadOfShrinkingThem) {
+    GuardedImage<Gray8> src({9, 9}), dst({9, 9});
+    src.fill(Gray8{1});
+    std::vector<std::uint8_t> scratch = scratch_of(dilate_scratch({9, 9}));
+    for (const int side : {2, 4, 62})
+        EXPECT_EQ(dilate(src.view(), {side, side}, span_of(scratch), dst.view()), Status::bad_argument);
+}
+
+TEST(Dilate, SaysOkForAnElementOfThree) {
+    GuardedImage<Gray8> src({9, 9}), dst({9, 9});
+    src.fill(Gray8{1});
+    std::vector<std::uint8_t> scratch = scratch_of(dilate_scratch({9, 9}));
+    EXPECT_EQ(dilate(src.view(), {3, 3}, span_of(scratch), dst.view()), Status::ok);
+    EXPECT_EQ(erode(src.view(), {3, 3}, span_of(scratch), dst.view()), Status::ok);
+}
+
 TEST(Morphology, SaysWhatIsWrongAndLeavesTheOutput) {
     GuardedImage<Gray8> src({8, 8}), dst({8, 8}), other({7, 8});
     src.fill(Gray8{1});

@@ -14,6 +14,7 @@
 #include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/segment/region.hpp>
 #include <fovea/segment/runs.hpp>
 #include <fovea/statistics/moments.hpp>
 
@@ -21,49 +22,13 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-/// Which neighbours hold together. The ground holds together by the other of the two.
-enum class Connectivity : std::uint8_t {
-    four,   ///< neighbours that share a side
-    eight,  ///< corners too
-};
-
-enum class BorderRegions : std::uint8_t {
-    keep,  ///< list regions that touch the border of the image
-    drop,  ///< leave them out: a part of them may be outside
-};
-
-struct ComponentOptions {
-    Connectivity connectivity = Connectivity::eight;
-    BorderRegions at_border = BorderRegions::keep;
-    std::int64_t area_min = 1;         ///< pixels; smaller regions are dirt
-    std::int64_t area_max = 67092481;  ///< pixels; all of the largest image
-    std::int64_t hole_area_min = 1;    ///< pixels; smaller holes are dirt
-};
-
-/// A connected set of non-zero pixels.
-struct Region {
-    Moments moments;             ///< of its pixels, without its holes
-    Rectangle box;               ///< the smallest upright rectangle around it
-    Point first;                 ///< its first pixel, row by row
-    bool at_border = false;      ///< it touches the border of the image
-    int holes = 0;               ///< its holes of at least hole_area_min
-    std::int64_t hole_area = 0;  ///< pixels in them
-    int number = 0;              ///< its place in the list
-};
-
-/// A connected set of zero pixels that a region surrounds.
-struct Hole {
-    Moments moments;
-    Rectangle box;
-    Point first;     ///< its first pixel, row by row
-    int region = 0;  ///< place of the surrounding region in its list
-};
-
-/// Scratch bytes for images of this width. With fewer labels than the default, for chips, a restless image
-/// may run out of them: then the answer is scratch_too_small.
+/// Scratch bytes for images of this width, for regions with Moments or other sums. With fewer labels than the
+/// default, for chips, a restless image may run out of them: then the answer is scratch_too_small.
+template <class Accumulated = Moments>
 constexpr std::int64_t connected_components_scratch(int width, int labels);
+template <class Accumulated = Moments>
 constexpr std::int64_t connected_components_scratch(int width) {
-    return connected_components_scratch(width, 2 * width + 2);
+    return connected_components_scratch<Accumulated>(width, 2 * width + 2);
 }
 
 /// Finds the components of an image whose rows come one after another.
@@ -79,16 +44,21 @@ constexpr std::int64_t connected_components_scratch(int width) {
 ///          capacity_exceeded when a list is full: it holds the largest, the earlier ones of equals
 /// Source   book sec. 2.8.3; runs and union-find after Rosenfeld and Pfaltz, "Sequential Operations in
 ///          Digital Picture Processing", JACM 13(4), 1966
-class ConnectedComponents {
+template <class Accumulated>
+class ConnectedComponentsOf {
 public:
-    ConnectedComponents(int width, const ComponentOptions& options, Span<std::uint8_t> scratch,
-                        ListView<Region> regions, ListView<Hole> holes);
+    using Region = RegionOf<Accumulated>;
+    using Hole = HoleOf<Accumulated>;
+
+    ConnectedComponentsOf(int width, const ComponentOptions& options, Span<std::uint8_t> scratch,
+                          ListView<Region> regions, ListView<Hole> holes);
 
     Status add_row(const std::uint8_t* row);
     /// Closes what is open and orders the lists. Nothing may be added afterwards.
     Status finish();
 
 private:
+    template <class>
     friend constexpr std::int64_t connected_components_scratch(int width, int labels);
 
     using LabelIndex = RunLabel;
@@ -98,7 +68,7 @@ private:
     static constexpr int owned_by(LabelIndex label) { return -2 - label; }
 
     struct Label {
-        Moments moments;
+        Accumulated moments;
         Point first;
         std::int16_t left = 0, right = 0, bottom = 0;
         std::int16_t seen_row = -1;  ///< the last row it has a run in
@@ -136,23 +106,35 @@ private:
     bool overflow_ = false;
 };
 
-/// The same for a whole image.
+using ConnectedComponents = ConnectedComponentsOf<Moments>;
+
+/// The same for a whole image. Other sums than Moments are asked for by name:
+/// connected_components<FirstMoments>(...).
 ///
 /// Shapes  binary 1x1 up to max_moment_side squared
 /// Errors  also empty_image; after an error other than capacity_exceeded the lists are as before or empty
+template <class Accumulated>
+Status connected_components(ImageView<const std::uint8_t> binary, const ComponentOptions& options,
+                            Span<std::uint8_t> scratch, NonDeduced<ListView<RegionOf<Accumulated>>> regions,
+                            NonDeduced<ListView<HoleOf<Accumulated>>> holes);
 inline Status connected_components(ImageView<const std::uint8_t> binary, const ComponentOptions& options,
                                    Span<std::uint8_t> scratch, ListView<Region> regions,
-                                   ListView<Hole> holes);
+                                   ListView<Hole> holes) {
+    return connected_components<Moments>(binary, options, scratch, regions, holes);
+}
 
 // ---- Implementation ---------------------------------------------------------------
 
+template <class Accumulated>
 constexpr std::int64_t connected_components_scratch(int width, int labels) {
-    return 2 * arena_bytes<Run>(std::int64_t{width} + 1) + arena_bytes<ConnectedComponents::Label>(labels);
+    return 2 * arena_bytes<Run>(std::int64_t{width} + 1) +
+           arena_bytes<typename ConnectedComponentsOf<Accumulated>::Label>(labels);
 }
 
-inline ConnectedComponents::ConnectedComponents(int width, const ComponentOptions& options,
-                                                Span<std::uint8_t> scratch, ListView<Region> regions,
-                                                ListView<Hole> holes)
+template <class Accumulated>
+ConnectedComponentsOf<Accumulated>::ConnectedComponentsOf(int width, const ComponentOptions& options,
+                                                          Span<std::uint8_t> scratch,
+                                                          ListView<Region> regions, ListView<Hole> holes)
     : width_(width), options_(options), regions_(regions), holes_(holes) {
     if (width <= 0) {
         status_ = Status::empty_image;
@@ -160,7 +142,7 @@ inline ConnectedComponents::ConnectedComponents(int width, const ComponentOption
         status_ = Status::image_too_large;
     } else if (options.area_min < 0 || options.area_min > options.area_max || options.hole_area_min < 0) {
         status_ = Status::bad_argument;
-    } else if (scratch.size() < connected_components_scratch(width, 1)) {
+    } else if (scratch.size() < connected_components_scratch<Accumulated>(width, 1)) {
         status_ = Status::scratch_too_small;
     } else {
         Arena arena(scratch);
@@ -175,14 +157,16 @@ inline ConnectedComponents::ConnectedComponents(int width, const ComponentOption
     }
 }
 
-inline Status ConnectedComponents::fail(Status status) {
+template <class Accumulated>
+Status ConnectedComponentsOf<Accumulated>::fail(Status status) {
     status_ = status;
     regions_.clear();
     holes_.clear();
     return status;
 }
 
-inline Status ConnectedComponents::add_row(const std::uint8_t* row) {
+template <class Accumulated>
+Status ConnectedComponentsOf<Accumulated>::add_row(const std::uint8_t* row) {
     if (status_ != Status::ok) return status_;
     if (y_ >= max_moment_side) return fail(Status::image_too_large);
     if (here_.split(row, width_) != Status::ok) return fail(Status::scratch_too_small);
@@ -197,7 +181,8 @@ inline Status ConnectedComponents::add_row(const std::uint8_t* row) {
 }
 
 /// Gives a run the label of the runs above that it touches, merging them, or a new one.
-inline bool ConnectedComponents::label_run(int index, int& above_from) {
+template <class Accumulated>
+bool ConnectedComponentsOf<Accumulated>::label_run(int index, int& above_from) {
     Run& run = here_[index];
     const int first = run.first;
     const int end = here_.end(index);
@@ -215,7 +200,8 @@ inline bool ConnectedComponents::label_run(int index, int& above_from) {
     return true;
 }
 
-inline ConnectedComponents::LabelIndex ConnectedComponents::new_label(bool is_region, Point first) {
+template <class Accumulated>
+auto ConnectedComponentsOf<Accumulated>::new_label(bool is_region, Point first) -> LabelIndex {
     const LabelIndex label = free_;
     if (label == none) return none;
     free_ = labels_[label].link;
@@ -229,7 +215,8 @@ inline ConnectedComponents::LabelIndex ConnectedComponents::new_label(bool is_re
     return label;
 }
 
-inline ConnectedComponents::LabelIndex ConnectedComponents::find(LabelIndex label) {
+template <class Accumulated>
+auto ConnectedComponentsOf<Accumulated>::find(LabelIndex label) -> LabelIndex {
     while (labels_[label].link != label) {
         labels_[label].link = labels_[labels_[label].link].link;
         label = labels_[label].link;
@@ -238,7 +225,8 @@ inline ConnectedComponents::LabelIndex ConnectedComponents::find(LabelIndex labe
 }
 
 /// Merges b into a or a into b: the one that began first stays.
-inline ConnectedComponents::LabelIndex ConnectedComponents::merge(LabelIndex a, LabelIndex b) {
+template <class Accumulated>
+auto ConnectedComponentsOf<Accumulated>::merge(LabelIndex a, LabelIndex b) -> LabelIndex {
     if (a == b) return a;
     const Point p = labels_[a].first;
     const Point q = labels_[b].first;
@@ -259,7 +247,8 @@ inline ConnectedComponents::LabelIndex ConnectedComponents::merge(LabelIndex a, 
     return a;
 }
 
-inline void ConnectedComponents::add_to_label(LabelIndex index, int first, int end) {
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::add_to_label(LabelIndex index, int first, int end) {
     Label& label = labels_[index];
     label.left = minimum(label.left, static_cast<std::int16_t>(first));
     label.right = maximum(label.right, static_cast<std::int16_t>(end - 1));
@@ -271,7 +260,8 @@ inline void ConnectedComponents::add_to_label(LabelIndex index, int first, int e
 
 /// Makes the labels of this row final and tells every piece of ground which region is on its left: at its
 /// leftmost run that is the region around it, if it is a hole.
-inline void ConnectedComponents::settle_row() {
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::settle_row() {
     for (int i = 0; i < here_.count(); ++i) {
         Run& run = here_[i];
         run.label = find(run.label);
@@ -283,7 +273,8 @@ inline void ConnectedComponents::settle_row() {
 }
 
 /// Lists what has no run in this row, then frees those labels and the ones that were merged.
-inline void ConnectedComponents::close_labels() {
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::close_labels() {
     for (int i = 0; i < above_.count(); ++i) {
         const LabelIndex index = above_[i].label;
         Label& label = labels_[index];
@@ -301,13 +292,15 @@ inline void ConnectedComponents::close_labels() {
     }
 }
 
-inline void ConnectedComponents::free_label(LabelIndex label) {
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::free_label(LabelIndex label) {
     labels_[label].used = false;
     labels_[label].link = free_;
     free_ = label;
 }
 
-inline void ConnectedComponents::close_hole(const Label& hole) {
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::close_hole(const Label& hole) {
     const LabelIndex around = find(hole.outer);
     const Rectangle box{hole.left, hole.first.y, hole.right - hole.left + 1, hole.bottom - hole.first.y + 1};
     const Hole entry{hole.moments, box, hole.first, owned_by(around)};
@@ -322,7 +315,8 @@ inline void ConnectedComponents::close_hole(const Label& hole) {
     if (smallest != nullptr && smallest->moments.area() < entry.moments.area()) *smallest = entry;
 }
 
-inline void ConnectedComponents::close_region(LabelIndex index) {
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::close_region(LabelIndex index) {
     const Label& label = labels_[index];
     const std::int64_t area = label.moments.area();
     bool listed = area >= options_.area_min && area <= options_.area_max &&
@@ -359,7 +353,8 @@ inline void ConnectedComponents::close_region(LabelIndex index) {
 }
 
 /// Drops the holes of regions that are not listed and puts both lists in order.
-inline void ConnectedComponents::order_lists() {
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::order_lists() {
     const auto before = [](Point a, Point b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
     int kept = 0;
     for (const Hole& hole : holes_)
@@ -375,7 +370,8 @@ inline void ConnectedComponents::order_lists() {
     sort(holes_.span(), [&](const Hole& a, const Hole& b) { return before(a.first, b.first); });
 }
 
-inline Status ConnectedComponents::finish() {
+template <class Accumulated>
+Status ConnectedComponentsOf<Accumulated>::finish() {
     if (status_ != Status::ok) return status_;
     if (y_ == 0) return fail(Status::empty_image);
     for (int i = 0; i < above_.count(); ++i) labels_[above_[i].label].at_border = true;
@@ -385,12 +381,13 @@ inline Status ConnectedComponents::finish() {
     return status_;
 }
 
-inline Status connected_components(ImageView<const std::uint8_t> binary, const ComponentOptions& options,
-                                   Span<std::uint8_t> scratch, ListView<Region> regions,
-                                   ListView<Hole> holes) {
+template <class Accumulated>
+Status connected_components(ImageView<const std::uint8_t> binary, const ComponentOptions& options,
+                            Span<std::uint8_t> scratch, NonDeduced<ListView<RegionOf<Accumulated>>> regions,
+                            NonDeduced<ListView<HoleOf<Accumulated>>> holes) {
     if (binary.empty()) return Status::empty_image;
     if (binary.height() > max_moment_side) return Status::image_too_large;
-    ConnectedComponents components(binary.width(), options, scratch, regions, holes);
+    ConnectedComponentsOf<Accumulated> components(binary.width(), options, scratch, regions, holes);
     for (int y = 0; y < binary.height(); ++y)
         if (Status s = components.add_row(binary.row(y)); s != Status::ok) return s;
     return components.finish();

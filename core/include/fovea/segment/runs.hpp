@@ -55,6 +55,15 @@ namespace detail {
 using PixelWord = std::conditional_t<(sizeof(void*) >= 8), std::uint64_t, std::uint32_t>;
 inline constexpr int word_pixels = sizeof(PixelWord);
 
+/// True if 4 * word_pixels pixels are all zero, or all 255: long runs are passed by with one question. Other
+/// pixels of a region may answer false.
+inline bool block_alike(const std::uint8_t* first, bool region) {
+    PixelWord words[4];
+    std::memcpy(words, first, sizeof words);
+    if (region) return (words[0] & words[1] & words[2] & words[3]) == static_cast<PixelWord>(-1);
+    return (words[0] | words[1] | words[2] | words[3]) == 0;
+}
+
 /// How many of the first word_pixels pixels are like the first one: zero, or not zero.
 inline int pixels_alike(const std::uint8_t* first, bool region) {
     constexpr PixelWord low = static_cast<PixelWord>(0x7f7f7f7f7f7f7f7f);
@@ -79,6 +88,8 @@ inline Status RunRow::split(const std::uint8_t* row, int width) {
     for (int x = 0; x < width;) {
         if (count_ >= runs_.size()) return Status::capacity_exceeded;
         runs_[count_++] = {static_cast<std::uint16_t>(x), no_label};
+        while (x + 4 * detail::word_pixels <= width && detail::block_alike(row + x, region))
+            x += 4 * detail::word_pixels;
         int alike = detail::word_pixels;
         while (alike == detail::word_pixels && x + detail::word_pixels <= width) {
             alike = detail::pixels_alike(row + x, region);

@@ -51,6 +51,8 @@ public:
         std::memset(first_ - reach, first_[0], static_cast<std::size_t>(reach));
         std::memset(first_ + width, first_[width - 1], static_cast<std::size_t>(reach));
     }
+    /// The pixel of column 0; as far as at() reaches, its neighbours may be read and written too.
+    std::uint8_t* pixels() const { return first_; }
 
 private:
     std::uint8_t* first_ = nullptr;

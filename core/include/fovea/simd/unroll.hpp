@@ -7,10 +7,15 @@
 #include <type_traits>
 #include <utility>
 
-namespace fovea::simd {
+#include <fovea/simd/isa.hpp>
+
+namespace fovea {
+inline namespace FOVEA_ISA {
+namespace simd {
 
 template <class Use, int... I>
-[[gnu::always_inline]] constexpr void unroll_over(Use use, std::integer_sequence<int, I...>) {
+[[gnu::always_inline]] constexpr void unroll_over([[maybe_unused]] Use use,
+                                                  std::integer_sequence<int, I...>) {
     (use(std::integral_constant<int, I>()), ...);
 }
 
@@ -20,4 +25,6 @@ template <int Count, class Use>
     unroll_over(use, std::make_integer_sequence<int, Count>());
 }
 
-}  // namespace fovea::simd
+}  // namespace simd
+}  // namespace FOVEA_ISA
+}  // namespace fovea

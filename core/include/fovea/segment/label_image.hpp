@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// An image of labels: the number of its region in every pixel. Book sec. 2.8.3.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <fovea/base/arena.hpp>
+#include <fovea/base/order.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/number/integer.hpp>
+#include <fovea/segment/region.hpp>
+#include <fovea/segment/runs.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// The most pieces of regions that label_image() tells apart.
+inline constexpr int max_image_labels = 65534;
+
+/// Scratch bytes for so many pieces of regions; without them, for any image of this size. A piece is what
+/// looks like a region of its own when it is met from above: a U is two.
+constexpr std::int64_t label_image_scratch(Size size, int pieces) {
+    return 2 * arena_bytes<Run>(std::int64_t{size.width} + 1) +
+           arena_bytes<Label16>(std::int64_t{pieces} + 1);
+}
+constexpr std::int64_t label_image_scratch(Size size) {
+    return label_image_scratch(
+        size, static_cast<int>(minimum<std::int64_t>((size.area() + 1) / 2, max_image_labels)));
+}
+
+/// Numbers the regions of a binary image from 1 on, by their first pixels row by row, as
+/// connected_components() lists them; the ground is 0. Answers how many there are.
+///
+/// Shapes   src and dst equal, 1x1 up to max_image_side squared; zero is ground, all else belongs
+/// Overlap  none
+/// Scratch  label_image_scratch(src.size(), pieces) bytes, undefined afterwards
+/// Errors   empty_image, size_mismatch, image_too_large; scratch_too_small; capacity_exceeded if there are
+/// more
+///          pieces than max_image_labels or the scratch has room for, with dst undefined
+/// Source   book sec. 2.8.3; runs and union-find after Rosenfeld and Pfaltz, JACM 13(4), 1966
+inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity connectivity,
+                               Span<std::uint8_t> scratch, ImageView<Label16> dst);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+/// Pieces that were found to be one: each points to one with a smaller number, or to itself.
+class LabelTable {
+public:
+    explicit LabelTable(Span<Label16> parents) : parents_(parents) {}
+
+    /// A new piece, or no_label if there is no room.
+    Label16 add() {
+        if (count_ + 1 >= parents_.size()) return no_label;
+        ++count_;
+        return parents_[count_] = static_cast<Label16>(count_);
+    }
+    Label16 find(Label16 label) {
+        while (parents_[label] != label) label = parents_[label] = parents_[parents_[label]];
+        return label;
+    }
+    Label16 merge(Label16 a, Label16 b) {
+        const Label16 p = find(a);
+        const Label16 q = find(b);
+        return parents_[maximum(p, q)] = minimum(p, q);
+    }
+    /// Gives every piece the number of its region, and answers how many there are.
+    int number() {
+        int regions = 0;
+        for (std::ptrdiff_t i = 1; i <= count_; ++i)
+            parents_[i] = parents_[i] == i ? static_cast<Label16>(++regions) : parents_[parents_[i]];
+        return regions;
+    }
+    Label16 operator[](Label16 label) const { return parents_[label]; }
+
+private:
+    Span<Label16> parents_;
+    std::ptrdiff_t count_ = 0;
+};
+
+}  // namespace detail
+
+inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity connectivity,
+                               Span<std::uint8_t> scratch, ImageView<Label16> dst) {
+    if (src.empty()) return Status::empty_image;
+    if (dst.size() != src.size()) return Status::size_mismatch;
+    if (src.width() > max_image_side || src.height() > max_image_side) return Status::image_too_large;
+    if (scratch.size() < label_image_scratch(src.size(), 1)) return Status::scratch_too_small;
+    const int width = src.width();
+    const int reach = connectivity == Connectivity::eight ? 1 : 0;
+    Arena arena(scratch);
+    RunRow above(arena.take<Run>(width + 1));
+    RunRow here(arena.take<Run>(width + 1));
+    const auto room = (arena.rest().size() - static_cast<std::ptrdiff_t>(alignof(Label16)) + 1) /
+                      static_cast<std::ptrdiff_t>(sizeof(Label16));
+    detail::LabelTable table(arena.take<Label16>(minimum<std::ptrdiff_t>(room, max_image_labels + 1)));
+
+    for (int y = 0; y < src.height(); ++y) {
+        static_cast<void>(here.split(src.row(y), width));
+        Label16* out = dst.row(y);
+        int k = 0;
+        for (int i = 0; i < here.count(); ++i) {
+            Run& run = here[i];
+            const int end = here.end(i);
+            Label16 label = 0;
+            if (here.is_region(i)) {
+                label = no_label;
+                while (k < above.count() && above.end(k) + reach <= run.first) ++k;
+                for (int n = k; n < above.count() && above[n].first < end + reach; ++n)
+                    if (above.is_region(n))
+                        label = label == no_label ? table.find(above[n].label)
+                                                  : table.merge(label, above[n].label);
+                if (label == no_label) label = table.add();
+                if (label == no_label) return Status::capacity_exceeded;
+            }
+            // The first pixel of a run remembers its piece until all are known.
+            run.label = label;
+            out[run.first] = label;
+        }
+        swap_values(above, here);
+    }
+    const int regions = table.number();
+    for (int y = 0; y < src.height(); ++y) {
+        static_cast<void>(here.split(src.row(y), width));
+        Label16* out = dst.row(y);
+        for (int i = 0; i < here.count(); ++i) {
+            const int first = here[i].first;
+            const Label16 label = here.is_region(i) ? table[out[first]] : Label16{0};
+            const int end = here.end(i);
+            for (int x = first; x < end; ++x) out[x] = label;
+        }
+    }
+    return regions;
+}
+
+}  // namespace fovea
