@@ -13,6 +13,7 @@
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
 #include <golden/codec_vectors.hpp>
+#include <golden/colour_vectors.hpp>
 #include <golden/decision_vectors.hpp>
 #include <golden/digest.hpp>
 #include <golden/draw_vectors.hpp>
@@ -41,8 +42,11 @@ inline constexpr Vector vectors[] = {
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
     {"simd/lanes", simd_lanes},
+    {"simd/interleave", simd_interleave},
     {"image/row_kernel", image_row_kernel},
     {"image/views", image_views},
+    {"pixelwise/hsv", pixelwise_hsv},
+    {"pixelwise/planes", pixelwise_planes},
     {"pixelwise/threshold", pixelwise_threshold},
     {"pixelwise/to_gray", pixelwise_to_gray},
     {"statistics/histogram", statistics_histogram},

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <fovea/base/span.hpp>
+#include <fovea/catalogue/colour.hpp>
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/catalogue/pixelwise.hpp>
@@ -21,6 +22,7 @@ inline namespace FOVEA_ISA {
 /// All families, in the order of core/layers.txt.
 inline constexpr OperatorFamily operator_families[] = {
     {"pixelwise", catalogue::pixelwise},
+    {"colour", catalogue::colour},
     {"morphology", catalogue::morphology},
 };
 

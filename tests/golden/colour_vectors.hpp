@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// Golden vectors of the colour conversions that are not from one image to one image, and of the lanes they
+// run on.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/pixelwise/hsv.hpp>
+#include <fovea/pixelwise/planes.hpp>
+#include <fovea/simd/interleave.hpp>
+#include <fovea/simd/lanes.hpp>
+#include <fovea/simd/ratio.hpp>
+#include <golden/digest.hpp>
+#include <golden/workspace.hpp>
+
+namespace fovea::golden {
+
+inline void put(Digest& digest, Hsv888 colour) {
+    digest.add_byte(colour.hue);
+    digest.add_byte(colour.saturation);
+    digest.add_byte(colour.value);
+}
+
+inline Rgb888 random_colour(Random& random) {
+    const std::uint8_t red = random_byte(random);
+    const std::uint8_t green = random_byte(random);
+    return {red, green, random_byte(random)};
+}
+
+/// Pairs, triples, quotients, and the operations of Bytes and Words that only colours need.
+inline void simd_interleave(Workspace& work, Digest& digest) {
+    constexpr int width = 192;
+    static_assert(width % simd::lanes == 0, "whole vectors");
+    Random random(13);
+    const ImageView<Gray8> src = work.view<Gray8>(0, {3 * width, 2});
+    const ImageView<Gray8> dst = work.view<Gray8>(1, {width, 14});
+    const ImageView<Gray8> back = work.view<Gray8>(2, {3 * width, 1});
+    fill(src, Filling::random, random);
+    for (int x = 0; x < width; x += simd::lanes) {
+        const simd::ByteTriples triples = simd::load_triples(src.row(0) + 3 * x);
+        const simd::BytePairs pairs = simd::load_pairs(src.row(1) + 2 * x);
+        const simd::Bytes a = triples.first;
+        const simd::Bytes b = triples.second;
+        a.store(dst.row(0) + x);
+        b.store(dst.row(1) + x);
+        triples.third.store(dst.row(2) + x);
+        pairs.first.store(dst.row(3) + x);
+        pairs.second.store(dst.row(4) + x);
+        simd::store_triples({triples.third, a, b}, back.row(0) + 3 * x);
+        (a + b).store(dst.row(5) + x);
+        (a - b).store(dst.row(6) + x);
+        const simd::Words p(a);
+        const simd::Words q(b);
+        ((p << 1) - q - simd::Words::all(100)).held().store(dst.row(7) + x);
+        ((p * q) >> 8).narrow().store(dst.row(8) + x);
+        const simd::Ratio ratio = simd::ratio_of<7>(lower(a, b), higher(a, b));
+        ratio.quotient.store(dst.row(9) + x);
+        ratio.rest.store(dst.row(10) + x);
+        const simd::Ratio doubled = twice(ratio, higher(a, b));
+        doubled.quotient.store(dst.row(11) + x);
+        doubled.rest.store(dst.row(12) + x);
+    }
+    simd::for_each_step<3, 1>(
+        src.row(0), width - 1, dst.row(13),
+        [](const std::uint8_t* from, std::uint8_t* to) { simd::load_triples(from).second.store(to); });
+    dst(width - 1, 13) = 0;
+    digest.add(dst, back);
+}
+
+inline void pixelwise_planes(Workspace& work, Digest& digest) {
+    for (const Size size : sizes) {
+        Random random(14);
+        const ImageView<Rgb888> colour = work.view<Rgb888>(0, size);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) colour(x, y) = random_colour(random);
+        // Three planes of one image, one below the other.
+        const ImageView<Gray8> planes = work.view<Gray8>(1, {size.width, 3 * size.height});
+        const auto plane = [&](int number) {
+            return *planes.crop({0, number * size.height, size.width, size.height});
+        };
+        digest.add(split_planes(colour, plane(0), plane(1), plane(2)), planes);
+        digest.add(merge_planes(plane(2), plane(0), plane(1), colour), colour);
+    }
+}
+
+inline void pixelwise_hsv(Workspace&, Digest& digest) {
+    Random random(15);
+    for (int i = 0; i < 4096; ++i) {
+        const Rgb888 colour = random_colour(random);
+        const Hsv888 hsv = hsv_of(colour);
+        digest.add(hsv, rgb_of(hsv), rgb_of({colour.red, colour.green, colour.blue}));
+    }
+}
+
+}  // namespace fovea::golden
