@@ -6,8 +6,12 @@
 
 #include <cstdint>
 
+#include <fovea/pixelwise/bayer.hpp>
+#include <fovea/pixelwise/colour_class.hpp>
 #include <fovea/pixelwise/hsv.hpp>
 #include <fovea/pixelwise/planes.hpp>
+#include <fovea/pixelwise/rgb565.hpp>
+#include <fovea/pixelwise/yuv.hpp>
 #include <fovea/simd/interleave.hpp>
 #include <fovea/simd/lanes.hpp>
 #include <fovea/simd/ratio.hpp>
@@ -90,6 +94,40 @@ inline void pixelwise_hsv(Workspace&, Digest& digest) {
         const Rgb888 colour = random_colour(random);
         const Hsv888 hsv = hsv_of(colour);
         digest.add(hsv, rgb_of(hsv), rgb_of({colour.red, colour.green, colour.blue}));
+    }
+}
+
+inline void pixelwise_video(Workspace& work, Digest& digest) {
+    Random random(16);
+    for (const YuvRange range : {YuvRange::full, YuvRange::narrow}) {
+        for (int i = 0; i < 2048; ++i) {
+            const Rgb888 yuv = random_colour(random);
+            digest.add(rgb_of(yuv.red, yuv.green, yuv.blue, range));
+        }
+        for (const Size size : sizes) {
+            const ImageView<Gray8> luma = work.view<Gray8>(0, size);
+            const ImageView<ChromaPair> chroma = work.view<ChromaPair>(1, chroma_size(size));
+            const ImageView<Rgb888> dst = work.view<Rgb888>(2, size);
+            fill(luma, Filling::random, random);
+            for (int y = 0; y < chroma.height(); ++y)
+                for (int x = 0; x < chroma.width(); ++x)
+                    chroma(x, y) = {random_byte(random), random_byte(random)};
+            digest.add(to_rgb(luma, chroma, range, dst), dst);
+        }
+    }
+    for (int colour = 0; colour < 65536; colour += 13) digest.add(rgb_of_rgb565(static_cast<Rgb565>(colour)));
+}
+
+inline void pixelwise_colour_class(Workspace&, Digest& digest) {
+    Random random(18);
+    for (int i = 0; i < 256; ++i) {
+        const Hsv888 hsv = hsv_of(random_colour(random));
+        for (const ColourClass& colour : colour_classes) digest.add(colour.range().contains(hsv));
+    }
+    for (const ColourClass& colour : colour_classes) {
+        const HsvRange range = colour.range();
+        digest.add(range.valid(), range.hue_first, range.hue_last, range.saturation_low,
+                   range.saturation_high, range.value_low, range.value_high);
     }
 }
 

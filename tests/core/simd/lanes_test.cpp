@@ -229,6 +229,20 @@ TEST(Bytes, AddAndSubtractModulo256) {
     }
 }
 
+TEST(Bytes, ShiftEveryPixelAlone) {
+    Random random(93);
+    for (int round = 0; round < 200; ++round)
+        for (int n = 0; n < 8; ++n) {
+            const Pixels a = random_pixels(random);
+            const Pixels left = stored([&] { return Bytes::load(a.data()) << n; });
+            const Pixels right = stored([&] { return Bytes::load(a.data()) >> n; });
+            for (std::size_t i = 0; i < lanes; ++i) {
+                ASSERT_EQ(left[i], (a[i] << n) & 255);
+                ASSERT_EQ(right[i], a[i] >> n);
+            }
+        }
+}
+
 TEST(Words, HoldADifferenceBetween0And255) {
     Random random(92);
     for (int round = 0; round < 1000; ++round) {

@@ -48,6 +48,15 @@ struct Bytes {
     /// Sum and difference modulo 256.
     [[gnu::always_inline]] friend Bytes operator+(Bytes a, Bytes b) { return {plus_bytes(a.raw, b.raw)}; }
     [[gnu::always_inline]] friend Bytes operator-(Bytes a, Bytes b) { return {minus_bytes(a.raw, b.raw)}; }
+    /// By n bits, 0 to 7; zeros come in.
+    [[gnu::always_inline]] friend Bytes operator<<(Bytes a, int n) {
+        return Bytes{bits_as<RawBytes>(shift_left(bits_as<RawWords>(a.raw), n))} &
+               all(static_cast<std::uint8_t>(255 << n));
+    }
+    [[gnu::always_inline]] friend Bytes operator>>(Bytes a, int n) {
+        return Bytes{bits_as<RawBytes>(shift_right(bits_as<RawWords>(a.raw), n))} &
+               all(static_cast<std::uint8_t>(255 >> n));
+    }
 };
 
 /// The same pixels at 16 bits, even and odd columns apart, so that nothing is shuffled.
