@@ -8,6 +8,7 @@
 
 #include <fovea/pixelwise/bayer.hpp>
 #include <fovea/pixelwise/colour_class.hpp>
+#include <fovea/pixelwise/colour_model.hpp>
 #include <fovea/pixelwise/hsv.hpp>
 #include <fovea/pixelwise/planes.hpp>
 #include <fovea/pixelwise/rgb565.hpp>
@@ -128,6 +129,32 @@ inline void pixelwise_colour_class(Workspace&, Digest& digest) {
         const HsvRange range = colour.range();
         digest.add(range.valid(), range.hue_first, range.hue_last, range.saturation_low,
                    range.saturation_high, range.value_low, range.value_high);
+    }
+}
+
+inline void put(Digest& digest, const ColourModel& model) {
+    digest.add(Span<const std::int16_t>(model.mean), Span<const std::int32_t>(model.inverse));
+}
+
+inline void pixelwise_colour_model(Workspace& work, Digest& digest) {
+    Random random(19);
+    const ImageView<Rgb888> samples = work.view<Rgb888>(0, {40, 20});
+    const ImageView<Gray8> dst = work.view<Gray8>(1, {40, 20});
+    for (const int spread : {0, 1, 7, 60, 255}) {
+        ColourModelSums sums;
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 40; ++x) {
+                const int t = random.between(0, spread);
+                samples(x, y) = {static_cast<std::uint8_t>(t), static_cast<std::uint8_t>(255 - t / 2),
+                                 static_cast<std::uint8_t>(random.between(0, spread))};
+                sums.add(samples(x, y));
+            }
+        digest.add(sums.count(), sums.model(), learn_colour(samples));
+        const ColourModel model = *sums.model();
+        for (int i = 0; i < 100; ++i) digest.add(model.distance_squared(random_colour(random)));
+        for (const std::uint32_t limit : {0u, 1u << 16, 9u << 16}) {
+            digest.add(colour_model_range(samples, model, limit, dst), dst);
+        }
     }
 }
 

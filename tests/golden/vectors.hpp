@@ -46,6 +46,7 @@ inline constexpr Vector vectors[] = {
     {"image/row_kernel", image_row_kernel},
     {"image/views", image_views},
     {"pixelwise/colour_class", pixelwise_colour_class},
+    {"pixelwise/colour_model", pixelwise_colour_model},
     {"pixelwise/hsv", pixelwise_hsv},
     {"pixelwise/planes", pixelwise_planes},
     {"pixelwise/threshold", pixelwise_threshold},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
+#include <fovea/pixelwise/colour_model.hpp>
 #include <fovea/pixelwise/planes.hpp>
 #include <fovea/pixelwise/yuv.hpp>
 
@@ -99,6 +100,18 @@ const bool nv12_added = add(1022, "to_rgb of NV12", Sizes::vga, [](Row& row) {
     row.peer("OpenCV",
              [both, out = mat(image.dst)]() mutable { cv::cvtColor(both, out, cv::COLOR_YUV2RGB_NV12); });
 #endif
+});
+
+const bool model_added = add(1052, "colour_model_range", Sizes::vga, [](Row& row) {
+    auto& src = row.keep(coloured_part(row.size()));
+    auto& dst = row.keep(Picture<Gray8>(row.size()));
+    auto& model = row.keep(*learn_colour(src.view()));
+    row.ours([&] { consume(colour_model_range(src.view(), model, 4 << 16, dst.view())); });
+});
+
+const bool learn_added = add(1053, "learn_colour", Sizes::vga, [](Row& row) {
+    auto& src = row.keep(coloured_part(row.size()));
+    row.ours([&] { consume(learn_colour(src.view())); });
 });
 
 }  // namespace
