@@ -10,6 +10,7 @@
 #include <fovea/pixelwise/colour_class.hpp>
 #include <fovea/pixelwise/colour_model.hpp>
 #include <fovea/pixelwise/hsv.hpp>
+#include <fovea/pixelwise/lab.hpp>
 #include <fovea/pixelwise/planes.hpp>
 #include <fovea/pixelwise/rgb565.hpp>
 #include <fovea/pixelwise/yuv.hpp>
@@ -25,6 +26,12 @@ inline void put(Digest& digest, Hsv888 colour) {
     digest.add_byte(colour.hue);
     digest.add_byte(colour.saturation);
     digest.add_byte(colour.value);
+}
+
+inline void put(Digest& digest, Lab888 colour) {
+    digest.add_byte(colour.lightness);
+    digest.add_byte(colour.a);
+    digest.add_byte(colour.b);
 }
 
 inline Rgb888 random_colour(Random& random) {
@@ -94,7 +101,19 @@ inline void pixelwise_hsv(Workspace&, Digest& digest) {
     for (int i = 0; i < 4096; ++i) {
         const Rgb888 colour = random_colour(random);
         const Hsv888 hsv = hsv_of(colour);
-        digest.add(hsv, rgb_of(hsv), rgb_of({colour.red, colour.green, colour.blue}));
+        digest.add(hsv, rgb_of(hsv), rgb_of(Hsv888{colour.red, colour.green, colour.blue}));
+    }
+}
+
+inline void pixelwise_lab(Workspace&, Digest& digest) {
+    Random random(20);
+    for (int i = 0; i < 4096; ++i) {
+        const Rgb888 colour = random_colour(random);
+        digest.add(lab_of(colour), rgb_of(Lab888{colour.red, colour.green, colour.blue}));
+    }
+    for (int level = 0; level < 256; ++level) {
+        const auto k = static_cast<std::uint8_t>(level);
+        digest.add(lab_of({k, 0, 0}), lab_of({0, k, 0}), lab_of({0, 0, k}), lab_of({k, k, k}));
     }
 }
 

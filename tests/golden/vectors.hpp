@@ -48,6 +48,7 @@ inline constexpr Vector vectors[] = {
     {"pixelwise/colour_class", pixelwise_colour_class},
     {"pixelwise/colour_model", pixelwise_colour_model},
     {"pixelwise/hsv", pixelwise_hsv},
+    {"pixelwise/lab", pixelwise_lab},
     {"pixelwise/planes", pixelwise_planes},
     {"pixelwise/threshold", pixelwise_threshold},
     {"pixelwise/to_gray", pixelwise_to_gray},

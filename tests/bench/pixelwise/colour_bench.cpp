@@ -22,6 +22,9 @@ const bool colour_added = [] {
     add_operator(1011, "rgb_from_hsv", Sizes::vga, {},
                  FOVEA_OPENCV(cv::cvtColor(in[0], out, cv::COLOR_HSV2RGB)), "to_rgb of HSV");
     add_operator(1012, "to_saturation", Sizes::vga, {}, {});
+    add_operator(1013, "to_lab", Sizes::vga, {}, FOVEA_OPENCV(cv::cvtColor(in[0], out, cv::COLOR_RGB2Lab)));
+    add_operator(1014, "rgb_from_lab", Sizes::vga, {},
+                 FOVEA_OPENCV(cv::cvtColor(in[0], out, cv::COLOR_Lab2RGB)), "to_rgb of Lab");
     add_operator(1020, "rgb_from_yuyv", Sizes::vga_and_full_hd, {},
                  FOVEA_OPENCV(cv::cvtColor(in[0], out, cv::COLOR_YUV2RGB_YUY2)), "to_rgb of YUYV");
     add_operator(1021, "rgb_from_uyvy", Sizes::vga, {},

@@ -10,6 +10,7 @@
 #include <fovea/pixelwise/bayer.hpp>
 #include <fovea/pixelwise/colour_class.hpp>
 #include <fovea/pixelwise/hsv.hpp>
+#include <fovea/pixelwise/lab.hpp>
 #include <fovea/pixelwise/planes.hpp>
 #include <fovea/pixelwise/rgb565.hpp>
 #include <fovea/pixelwise/to_gray.hpp>
@@ -104,6 +105,24 @@ inline constexpr Operator colour[] = {
      nullptr,
      nullptr,
      [](const OperatorCall& c) { return to_saturation(c.input<Rgb888>(), c.out<Gray8>()); }},
+    {"to_lab",
+     "CIE L*a*b* of a colour image",
+     "",
+     {PixelKind::rgb888},
+     PixelKind::lab888,
+     {},
+     nullptr,
+     nullptr,
+     [](const OperatorCall& c) { return to_lab(c.input<Rgb888>(), c.out<Lab888>()); }},
+    {"rgb_from_lab",
+     "colours of CIE L*a*b*",
+     "",
+     {PixelKind::lab888},
+     PixelKind::rgb888,
+     {},
+     nullptr,
+     nullptr,
+     [](const OperatorCall& c) { return to_rgb(c.input<Lab888>(), c.out<Rgb888>()); }},
     {"rgb_from_yuyv",
      "colour of a YUYV image",
      "",
