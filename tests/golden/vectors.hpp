@@ -13,6 +13,7 @@
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
 #include <golden/codec_vectors.hpp>
+#include <golden/colour_vectors.hpp>
 #include <golden/decision_vectors.hpp>
 #include <golden/digest.hpp>
 #include <golden/draw_vectors.hpp>
@@ -20,9 +21,9 @@
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
 #include <golden/operator_vectors.hpp>
+#include <golden/segment_vectors.hpp>
 #include <golden/stream_vectors.hpp>
 #include <golden/warp_vectors.hpp>
-#include <golden/segment_vectors.hpp>
 #include <golden/workspace.hpp>
 
 namespace fovea::golden {
@@ -49,8 +50,17 @@ inline constexpr Vector vectors[] = {
     {"image/row_kernel", image_row_kernel},
     {"image/views", image_views},
     {"stream/filters", stream_filters},
+    {"simd/interleave", simd_interleave},
+    {"image/row_kernel", image_row_kernel},
+    {"image/views", image_views},
+    {"pixelwise/colour_class", pixelwise_colour_class},
+    {"pixelwise/colour_model", pixelwise_colour_model},
+    {"pixelwise/hsv", pixelwise_hsv},
+    {"pixelwise/lab", pixelwise_lab},
+    {"pixelwise/planes", pixelwise_planes},
     {"pixelwise/threshold", pixelwise_threshold},
     {"pixelwise/to_gray", pixelwise_to_gray},
+    {"pixelwise/video", pixelwise_video},
     {"statistics/histogram", statistics_histogram},
     {"statistics/moments", statistics_moments},
     {"statistics/polygon_moments", statistics_polygon_moments},

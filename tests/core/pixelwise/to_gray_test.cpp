@@ -42,16 +42,41 @@ TEST(ToGray, TakesEveryPixelOfEverySize) {
     for (const Size size : test_sizes()) {
         GuardedImage<Rgb888> colour(size);
         GuardedImage<Yuyv> packed(size);
+        GuardedImage<Uyvy> swapped(size);
         GuardedImage<Gray8> dst(size);
         colour.fill(random);
         packed.fill(random);
+        swapped.fill(random);
         ASSERT_EQ(to_gray(colour.view(), dst.view()), Status::ok);
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) ASSERT_EQ(dst(x, y), gray_of(colour(x, y)));
         ASSERT_EQ(to_gray(packed.view(), dst.view()), Status::ok);
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) ASSERT_EQ(dst(x, y), packed(x, y).luma);
+        ASSERT_EQ(to_gray(swapped.view(), dst.view()), Status::ok);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) ASSERT_EQ(dst(x, y), swapped(x, y).luma);
+        ASSERT_EQ(to_gray_fast(colour.view(), dst.view()), Status::ok);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) {
+                const Rgb888 c = colour(x, y);
+                ASSERT_EQ(dst(x, y), (c.red + 2 * c.green + c.blue + 2) / 4);
+            }
     }
+}
+
+TEST(ToGrayFast, WeighsThePrimariesAsTheToolkitDoes) {
+    GuardedImage<Rgb888> src({4, 1});
+    GuardedImage<Gray8> dst({4, 1});
+    src(0, 0) = {255, 0, 0};
+    src(1, 0) = {0, 255, 0};
+    src(2, 0) = {0, 0, 255};
+    src(3, 0) = {255, 255, 255};
+    ASSERT_EQ(to_gray_fast(src.view(), dst.view()), Status::ok);
+    EXPECT_EQ(dst(0, 0), 64);
+    EXPECT_EQ(dst(1, 0), 128);
+    EXPECT_EQ(dst(2, 0), 64);
+    EXPECT_EQ(dst(3, 0), 255);
 }
 
 TEST(ToGray, SaysWhatIsWrongAndLeavesTheOutput) {

@@ -135,6 +135,13 @@ TEST(Backend, MasksWhereTheFirstByteIsAtLeastTheSecond) {
                   [](int a, int b) { return a >= b ? 255 : 0; });
 }
 
+TEST(Backend, AddsAndSubtractsBytesModuloTheirWidth) {
+    compare_bytes([](const RawBytes& a, const RawBytes& b, RawBytes& c) { c = plus_bytes(a, b); },
+                  [](int a, int b) { return (a + b) & 255; });
+    compare_bytes([](const RawBytes& a, const RawBytes& b, RawBytes& c) { c = minus_bytes(a, b); },
+                  [](int a, int b) { return (a - b) & 255; });
+}
+
 TEST(Backend, AddsWordsWhoseSumFits) {
     compare_words([](const RawWords& a, const RawWords& b, RawWords& c) { c = plus(a, b); },
                   [](int a, int b) { return a + b; }, [](int a, int b) { return a + b < 65536; });
@@ -163,6 +170,11 @@ TEST(Backend, MultipliesWordsWhoseProductFits) {
             [&](int x, int) { return x * factor; });
     }
 }
+TEST(Backend, MultipliesWordsByWordsWhoseProductFits) {
+    compare_words([](const RawWords& a, const RawWords& b, RawWords& c) { c = product(a, b); },
+                  [](int a, int b) { return a * b; },
+                  [](int a, int b) { return std::int64_t{a} * b < 65536; });
+}
 TEST(Backend, ShiftsWordsLeftWhereTheResultFits) {
     for (int bits = 0; bits < 16; ++bits) {
         Random random(84);
@@ -189,6 +201,10 @@ TEST(Backend, TakesTheMagnitudeOfEverySignedWord) {
             a, a, [](const RawWords& x, const RawWords&, RawWords& c) { c = absolute(x); },
             [](int x, int) { return x < 0x8000 ? x : 0x10000 - x; });
     }
+}
+TEST(Backend, HoldsEverySignedWordAt0And255) {
+    compare_words([](const RawWords& a, const RawWords&, RawWords& c) { c = hold_to_byte(a); },
+                  [](int a, int) { return a >= 0x8000 ? 0 : std::min(a, 255); }, always);
 }
 TEST(Backend, HoldsEveryWordAt255) {
     for (int value = 0; value < 65536; ++value) {

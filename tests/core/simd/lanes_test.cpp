@@ -202,10 +202,58 @@ TEST(Words, MultiplyAndShiftUpTo16Bits) {
             [n](int a, int) { return a >> n; });
 }
 
+TEST(Words, MultiplyColumnByColumn) {
+    compare(
+        256, 256, [](const Words& a, const Words& b) { return a * b; }, [](int a, int b) { return a * b; });
+    compare(
+        2, 65536, [](const Words& a, const Words& b) { return a * b; }, [](int a, int b) { return a * b; });
+}
+
 TEST(Words, GiveTheDistanceOfTwoValuesOf15Bits) {
     compare(
         32768, 32768, [](const Words& a, const Words& b) { return absolute(a - b); },
         [](int a, int b) { return std::abs(a - b); });
+}
+
+TEST(Bytes, AddAndSubtractModulo256) {
+    Random random(91);
+    for (int round = 0; round < 1000; ++round) {
+        const Pixels a = random_pixels(random);
+        const Pixels b = random_pixels(random);
+        const Pixels sum = stored([&] { return Bytes::load(a.data()) + Bytes::load(b.data()); });
+        const Pixels difference = stored([&] { return Bytes::load(a.data()) - Bytes::load(b.data()); });
+        for (std::size_t i = 0; i < lanes; ++i) {
+            ASSERT_EQ(sum[i], (a[i] + b[i]) & 255);
+            ASSERT_EQ(difference[i], (a[i] - b[i]) & 255);
+        }
+    }
+}
+
+TEST(Bytes, ShiftEveryPixelAlone) {
+    Random random(93);
+    for (int round = 0; round < 200; ++round)
+        for (int n = 0; n < 8; ++n) {
+            const Pixels a = random_pixels(random);
+            const Pixels left = stored([&] { return Bytes::load(a.data()) << n; });
+            const Pixels right = stored([&] { return Bytes::load(a.data()) >> n; });
+            for (std::size_t i = 0; i < lanes; ++i) {
+                ASSERT_EQ(left[i], (a[i] << n) & 255);
+                ASSERT_EQ(right[i], a[i] >> n);
+            }
+        }
+}
+
+TEST(Words, HoldADifferenceBetween0And255) {
+    Random random(92);
+    for (int round = 0; round < 1000; ++round) {
+        const Pixels a = random_pixels(random);
+        const Pixels b = random_pixels(random);
+        const Pixels held = stored([&] {
+            return (Words(Bytes::load(a.data())) * 3 - Words(Bytes::load(b.data())) - Words::all(100)).held();
+        });
+        for (std::size_t i = 0; i < lanes; ++i)
+            ASSERT_EQ(held[i], std::max(0, std::min(255, 3 * a[i] - b[i] - 100)));
+    }
 }
 
 TEST(Words, SubtractFromADifferenceAgain) {

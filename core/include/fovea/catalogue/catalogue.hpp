@@ -4,6 +4,7 @@
 #pragma once
 
 #include <fovea/base/span.hpp>
+#include <fovea/catalogue/colour.hpp>
 #include <fovea/catalogue/filter.hpp>
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
@@ -16,10 +17,8 @@ inline namespace FOVEA_ISA {
 
 /// All families, in the order of core/layers.txt.
 inline constexpr OperatorFamily operator_families[] = {
-    {"pixelwise", catalogue::pixelwise},
-    {"filter", catalogue::filter},
-    {"morphology", catalogue::morphology},
-    {"warp", catalogue::warp},
+    {"pixelwise", catalogue::pixelwise},   {"colour", catalogue::colour}, {"filter", catalogue::filter},
+    {"morphology", catalogue::morphology}, {"warp", catalogue::warp},
 };
 
 /// The operator of a name; null if there is none.

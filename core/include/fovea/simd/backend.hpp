@@ -114,6 +114,16 @@ using ShuffleWords = Shuffle<std::make_integer_sequence<int, FOVEA_BYTES / 2>>;
 [[gnu::always_inline]] inline RawWords odd_words(RawWords a, RawWords b) {
     return ShuffleWords::odd_of(a, b);
 }
+[[gnu::always_inline]] inline RawWords product(RawWords a, RawWords b) { return a * b; }
+[[gnu::always_inline]] inline RawBytes plus_bytes(RawBytes a, RawBytes b) { return a + b; }
+[[gnu::always_inline]] inline RawBytes minus_bytes(RawBytes a, RawBytes b) { return a - b; }
+[[gnu::always_inline]] inline RawWords hold_to_byte(RawWords a) {
+    const RawSigned value = bits_as<RawSigned>(a);
+    const RawSigned low = RawSigned{};
+    const RawSigned high = bits_as<RawSigned>(all_words(255));
+    const RawSigned raised = value > low ? value : low;
+    return bits_as<RawWords>(raised < high ? raised : high);
+}
 
 #else
 
@@ -125,6 +135,9 @@ using RawWords = std::uint32_t;
 // Sums, products and left shifts of the two halves must stay below 2^16: words says so in its contract.
 [[gnu::always_inline]] inline RawWords plus(RawWords a, RawWords b) { return a + b; }
 [[gnu::always_inline]] inline RawWords times(RawWords a, std::uint16_t k) { return a * k; }
+[[gnu::always_inline]] inline RawWords product(RawWords a, RawWords b) {
+    return (a & 0xffffu) * (b & 0xffffu) | ((a >> 16) * (b >> 16)) << 16;
+}
 [[gnu::always_inline]] inline RawWords shift_left(RawWords a, int n) { return a << n; }
 [[gnu::always_inline]] inline RawWords shift_right(RawWords a, int n) {
     return a >> n & (0xffffu >> n) * 0x00010001u;
@@ -155,6 +168,21 @@ using RawWords = std::uint32_t;
     RawWords excess;
     asm("uqsub16 %0, %1, %2" : "=r"(excess) : "r"(a), "r"(all_words(255)));
     return a - excess;
+}
+[[gnu::always_inline]] inline RawBytes plus_bytes(RawBytes a, RawBytes b) {
+    RawBytes sum;
+    asm("uadd8 %0, %1, %2" : "=r"(sum) : "r"(a), "r"(b) : "cc");
+    return sum;
+}
+[[gnu::always_inline]] inline RawBytes minus_bytes(RawBytes a, RawBytes b) {
+    RawBytes difference;
+    asm("usub8 %0, %1, %2" : "=r"(difference) : "r"(a), "r"(b) : "cc");
+    return difference;
+}
+[[gnu::always_inline]] inline RawWords hold_to_byte(RawWords a) {
+    RawWords held;
+    asm("usat16 %0, #8, %1" : "=r"(held) : "r"(a) : "cc");
+    return held;
 }
 
 #else
@@ -191,6 +219,18 @@ using RawWords = std::uint32_t;
     over |= over >> 1;
     over &= 0x00010001u;
     return (a & 0x00ff00ffu) | ((over << 8) - over);
+}
+[[gnu::always_inline]] inline RawBytes plus_bytes(RawBytes a, RawBytes b) {
+    constexpr RawBytes top = 0x80808080u;
+    return ((a & ~top) + (b & ~top)) ^ ((a ^ b) & top);
+}
+[[gnu::always_inline]] inline RawBytes minus_bytes(RawBytes a, RawBytes b) {
+    constexpr RawBytes top = 0x80808080u;
+    return ((a | top) - (b & ~top)) ^ ((a ^ ~b) & top);
+}
+[[gnu::always_inline]] inline RawWords hold_to_byte(RawWords a) {
+    const RawWords negative = a >> 15 & 0x00010001u;
+    return at_most_255(a & ~((negative << 16) - negative));
 }
 
 #endif

@@ -45,14 +45,26 @@ struct Bytes {
     [[gnu::always_inline]] friend Bytes operator|(Bytes a, Bytes b) { return {a.raw | b.raw}; }
     [[gnu::always_inline]] friend Bytes operator^(Bytes a, Bytes b) { return {a.raw ^ b.raw}; }
     [[gnu::always_inline]] friend Bytes operator~(Bytes a) { return {~a.raw}; }
+    /// Sum and difference modulo 256.
+    [[gnu::always_inline]] friend Bytes operator+(Bytes a, Bytes b) { return {plus_bytes(a.raw, b.raw)}; }
+    [[gnu::always_inline]] friend Bytes operator-(Bytes a, Bytes b) { return {minus_bytes(a.raw, b.raw)}; }
+    /// By n bits, 0 to 7; zeros come in.
+    [[gnu::always_inline]] friend Bytes operator<<(Bytes a, int n) {
+        return Bytes{bits_as<RawBytes>(shift_left(bits_as<RawWords>(a.raw), n))} &
+               all(static_cast<std::uint8_t>(255 << n));
+    }
+    [[gnu::always_inline]] friend Bytes operator>>(Bytes a, int n) {
+        return Bytes{bits_as<RawBytes>(shift_right(bits_as<RawWords>(a.raw), n))} &
+               all(static_cast<std::uint8_t>(255 >> n));
+    }
 };
 
 /// The same pixels at 16 bits, even and odd columns apart, so that nothing is shuffled.
 ///
 /// Contract  every sum, product and left shift stays a non-negative value below 2^16, or comes from a
-///           difference and goes only into absolute() or another difference: a negative half must not be the
-///           left side of a sum, because the word back end would carry into its neighbour. Write c + 1024 -
-///           a, not c - a + 1024.
+///           difference and goes only into absolute(), held() or another difference: a negative half must not
+///           be the left side of a sum, because the word back end would carry into its neighbour. Write c +
+///           1024 - a, not c - a + 1024.
 struct Words {
     RawWords even;
     RawWords odd;
@@ -149,6 +161,14 @@ struct Words {
     }
     [[gnu::always_inline]] friend Words operator~(Words a) { return {~a.even, ~a.odd}; }
     [[gnu::always_inline]] friend Words absolute(Words a) { return {absolute(a.even), absolute(a.odd)}; }
+    /// Column by column; every product stays below 2^16.
+    [[gnu::always_inline]] friend Words operator*(Words a, Words b) {
+        return {product(a.even, b.even), product(a.odd, b.odd)};
+    }
+    /// Back to pixels, held at 0 and 255; for values of -32768 to 32767.
+    [[gnu::always_inline]] Bytes held() const {
+        return Words{hold_to_byte(even), hold_to_byte(odd)}.narrow();
+    }
 
 private:
     static constexpr bool big_endian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;

@@ -7,7 +7,9 @@
 
 #include <fovea/simd/isa.hpp>
 
-#if FOVEA_BYTES >= 16 && defined(__SSE2__)
+#if FOVEA_BYTES >= 32 && defined(__AVX2__)
+#include <immintrin.h>
+#elif FOVEA_BYTES >= 16 && defined(__SSE2__)
 #include <emmintrin.h>
 #elif FOVEA_BYTES >= 16 && defined(__ARM_NEON)
 #include <arm_neon.h>
@@ -31,13 +33,49 @@ struct TripleWeights {
 };
 
 /// Triples in one step of weigh_triples(); 1 where there is no faster way than one by one.
-#if FOVEA_BYTES >= 16 && (defined(__SSE2__) || defined(__ARM_NEON))
+#if FOVEA_BYTES >= 32 && defined(__AVX2__)
+inline constexpr int triples_a_step = 32;
+#elif FOVEA_BYTES >= 16 && (defined(__SSE2__) || defined(__ARM_NEON))
 inline constexpr int triples_a_step = 16;
 #else
 inline constexpr int triples_a_step = 1;
 #endif
 
-#if FOVEA_BYTES >= 16 && defined(__SSE2__)
+#if FOVEA_BYTES >= 32 && defined(__AVX2__)
+
+/// The means of 32 triples. One shuffle takes the first and second byte of four triples in either half of a
+/// register, another the third, each widened on the way, so that they are multiplied in pairs.
+inline void weigh_step(const std::uint8_t* src, TripleWeights weights, std::uint8_t* dst) {
+    const auto both = [](__m128i bytes) { return _mm256_broadcastsi128_si256(bytes); };
+    constexpr char no = -128;  // a shuffle gives zero here, also where the shift below is added
+    const __m256i pairs = both(_mm_setr_epi8(0, no, 1, no, 3, no, 4, no, 6, no, 7, no, 9, no, 10, no));
+    const __m256i thirds = both(_mm_setr_epi8(2, no, no, no, 5, no, no, no, 8, no, no, no, 11, no, no, no));
+    const __m256i pair_weights = _mm256_set1_epi32(weights.first | weights.second << 16);
+    const __m256i third_weight = _mm256_set1_epi32(weights.third);
+    const __m256i half = _mm256_set1_epi32(1 << 14);
+    const auto means = [&](const std::uint8_t* low, const std::uint8_t* high, __m256i shift) {
+        const __m128i first = _mm_loadu_si128(reinterpret_cast<const __m128i*>(low));
+        const __m128i second = _mm_loadu_si128(reinterpret_cast<const __m128i*>(high));
+        const __m256i bytes = _mm256_inserti128_si256(_mm256_castsi128_si256(first), second, 1);
+        const __m256i ab = _mm256_shuffle_epi8(bytes, _mm256_add_epi8(pairs, shift));
+        const __m256i c = _mm256_shuffle_epi8(bytes, _mm256_add_epi8(thirds, shift));
+        const __m256i sum =
+            _mm256_add_epi32(_mm256_madd_epi16(ab, pair_weights), _mm256_madd_epi16(c, third_weight));
+        return _mm256_srli_epi32(_mm256_add_epi32(sum, half), 15);
+    };
+    // Triples 0 to 15 in the lower halves, 16 to 31 in the upper ones, so that packing keeps their order. The
+    // last four are read from four bytes before, to end where the 96 bytes end.
+    const __m256i none = _mm256_setzero_si256();
+    const __m256i four_later = _mm256_inserti128_si256(none, _mm_set1_epi8(4), 1);
+    const __m256i a = means(src, src + 48, none);
+    const __m256i b = means(src + 12, src + 60, none);
+    const __m256i c = means(src + 24, src + 72, none);
+    const __m256i d = means(src + 36, src + 80, four_later);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(dst),
+                        _mm256_packus_epi16(_mm256_packs_epi32(a, b), _mm256_packs_epi32(c, d)));
+}
+
+#elif FOVEA_BYTES >= 16 && defined(__SSE2__)
 
 /// The means of 16 triples: they are dealt out to three vectors, then multiplied in pairs.
 inline void weigh_step(const std::uint8_t* src, TripleWeights weights, std::uint8_t* dst) {

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Colour in 16 bits, as small cameras and displays have it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <fovea/base/status.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/image/pixel.hpp>
+#include <fovea/number/integer.hpp>
+#include <fovea/pixelwise/convert_frame.hpp>
+#include <fovea/pixelwise/to_gray.hpp>
+#include <fovea/simd/interleave.hpp>
+#include <fovea/simd/isa.hpp>
+#include <fovea/simd/lanes.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// The colour of a 16-bit pixel: the 5 or 6 bits of each part, and its highest bits once more below them, so
+/// that 0 stays 0 and all ones become 255.
+///
+/// Rounding  less than a level from 255 / 31 or 255 / 63 of a part
+/// Source    the definition of the format; the low bits as displays make them
+constexpr Rgb888 rgb_of_rgb565(Rgb565 colour);
+
+inline namespace FOVEA_ISA {
+
+/// rgb_of_rgb565() of every pixel. A sensor that sends the high byte first to a machine that has the low one
+/// first must be told to swap.
+///
+/// Shapes   src and dst equal, 1x1 or larger
+/// Overlap  none: dst must not share pixels with src
+/// Errors   empty_image, size_mismatch
+/// Source   the definition of the format
+inline Status rgb565_to_rgb(ImageView<const Rgb565> src, ImageView<Rgb888> dst);
+
+/// The brightness of every pixel: gray_of() of rgb_of_rgb565(). All else as above.
+inline Status rgb565_to_gray(ImageView<const Rgb565> src, ImageView<Gray8> dst);
+
+}  // namespace FOVEA_ISA
+
+// ---- Implementation ---------------------------------------------------------------
+
+constexpr Rgb888 rgb_of_rgb565(Rgb565 colour) {
+    const auto five = [](int part) { return static_cast<std::uint8_t>(part << 3 | part >> 2); };
+    const int green = colour >> 5 & 63;
+    return {five(colour >> 11), static_cast<std::uint8_t>(green << 2 | green >> 4), five(colour & 31)};
+}
+
+inline namespace FOVEA_ISA {
+
+namespace kernels {
+
+/// The colours of lanes 16-bit pixels.
+[[gnu::always_inline]] inline simd::ByteTriples rgb565_lanes(const std::uint8_t* from) {
+    using simd::Bytes;
+    constexpr bool big_endian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+    const simd::BytePairs pairs = simd::load_pairs(from);
+    const Bytes high = big_endian ? pairs.first : pairs.second;
+    const Bytes low = big_endian ? pairs.second : pairs.first;
+    const Bytes red = high & Bytes::all(0xf8);
+    const Bytes green = (high << 5) | ((low >> 3) & Bytes::all(0x1c));
+    const Bytes blue = low << 3;
+    return {red | (red >> 5), green | (green >> 6), blue | (blue >> 5)};
+}
+
+/// rgb565_to_rgb() of one row.
+inline void rgb_from_rgb565_row(const Rgb565* src, int width, Rgb888* dst) {
+    simd::for_each_step<2, 3>(
+        reinterpret_cast<const std::uint8_t*>(src), width, &dst->red,
+        [](const std::uint8_t* from, std::uint8_t* to) { simd::store_triples(rgb565_lanes(from), to); });
+}
+
+/// rgb565_to_gray() of one row. Some vectors of colours at a time, so that they have reached the cache before
+/// they are read in other pieces.
+inline void gray_from_rgb565_row(const Rgb565* src, int width, Gray8* dst) {
+    constexpr int chunk = 8 * simd::lanes;
+    Rgb888 colours[static_cast<std::size_t>(chunk)];
+    for (int x = 0; x < width; x += chunk) {
+        const int count = minimum(chunk, width - x);
+        rgb_from_rgb565_row(src + x, count, colours);
+        gray_row(colours, count, dst + x);
+    }
+}
+
+}  // namespace kernels
+
+inline Status rgb565_to_rgb(ImageView<const Rgb565> src, ImageView<Rgb888> dst) {
+    return detail::convert_frame(src, dst, kernels::rgb_from_rgb565_row);
+}
+
+inline Status rgb565_to_gray(ImageView<const Rgb565> src, ImageView<Gray8> dst) {
+    return detail::convert_frame(src, dst, kernels::gray_from_rgb565_row);
+}
+
+}  // namespace FOVEA_ISA
+}  // namespace fovea
