@@ -19,6 +19,7 @@
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/operator_vectors.hpp>
+#include <golden/statistics_vectors.hpp>
 #include <golden/workspace.hpp>
 
 namespace fovea::golden {
@@ -43,12 +44,19 @@ inline constexpr Vector vectors[] = {
     {"simd/lanes", simd_lanes},
     {"image/row_kernel", image_row_kernel},
     {"image/views", image_views},
+    {"pixelwise/frames", pixelwise_frames},
+    {"pixelwise/tables", pixelwise_tables},
     {"pixelwise/threshold", pixelwise_threshold},
     {"pixelwise/to_gray", pixelwise_to_gray},
+    {"statistics/distances", statistics_distances},
     {"statistics/histogram", statistics_histogram},
+    {"statistics/integral", statistics_integral},
+    {"statistics/masked_histogram", statistics_masked_histogram},
     {"statistics/moments", statistics_moments},
     {"statistics/polygon_moments", statistics_polygon_moments},
     {"statistics/polygon_symmetry", statistics_polygon_symmetry},
+    {"statistics/projection", statistics_projection},
+    {"statistics/reductions", statistics_reductions},
     {"morphology/rectangles", morphology_rectangles},
     {"warp/bilinear", warp_bilinear},
     {"segment/connected_components", segment_connected_components},

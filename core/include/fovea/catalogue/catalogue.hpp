@@ -4,9 +4,11 @@
 #pragma once
 
 #include <fovea/base/span.hpp>
+#include <fovea/catalogue/adaptive.hpp>
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/catalogue/pixelwise.hpp>
+#include <fovea/catalogue/statistics.hpp>
 
 namespace fovea {
 
@@ -21,7 +23,9 @@ inline namespace FOVEA_ISA {
 /// All families, in the order of core/layers.txt.
 inline constexpr OperatorFamily operator_families[] = {
     {"pixelwise", catalogue::pixelwise},
+    {"statistics", catalogue::statistics},
     {"morphology", catalogue::morphology},
+    {"segment", catalogue::adaptive},
 };
 
 /// The operator of a name; null if there is none.

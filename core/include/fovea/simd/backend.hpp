@@ -56,6 +56,8 @@ using RawSigned [[gnu::vector_size(FOVEA_BYTES)]] = std::int16_t;
     const RawWords limit = all_words(255);
     return a < limit ? a : limit;
 }
+[[gnu::always_inline]] inline RawBytes plus_bytes(RawBytes a, RawBytes b) { return a + b; }
+[[gnu::always_inline]] inline RawBytes minus_bytes(RawBytes a, RawBytes b) { return a - b; }
 
 #else
 
@@ -98,6 +100,8 @@ using RawWords = std::uint32_t;
     asm("uqsub16 %0, %1, %2" : "=r"(excess) : "r"(a), "r"(all_words(255)));
     return a - excess;
 }
+[[gnu::always_inline]] inline RawBytes plus_bytes(RawBytes a, RawBytes b) { return __uadd8(a, b); }
+[[gnu::always_inline]] inline RawBytes minus_bytes(RawBytes a, RawBytes b) { return __usub8(a, b); }
 
 #else
 
@@ -133,6 +137,14 @@ using RawWords = std::uint32_t;
     over |= over >> 1;
     over &= 0x00010001u;
     return (a & 0x00ff00ffu) | ((over << 8) - over);
+}
+[[gnu::always_inline]] inline RawBytes plus_bytes(RawBytes a, RawBytes b) {
+    constexpr RawBytes top = 0x80808080u;
+    return ((a & ~top) + (b & ~top)) ^ ((a ^ b) & top);
+}
+[[gnu::always_inline]] inline RawBytes minus_bytes(RawBytes a, RawBytes b) {
+    constexpr RawBytes top = 0x80808080u;
+    return ((a | top) - (b & ~top)) ^ ((a ^ ~b) & top);
 }
 
 #endif
