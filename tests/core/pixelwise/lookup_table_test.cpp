@@ -112,6 +112,30 @@ TEST(Affine, RefusesWhatItsBoundsExclude) {
     EXPECT_EQ(dst(0, 0), 77);
 }
 
+TEST(Affine, IsItsTableForEveryScaleAndOffset) {
+    Random random(84);
+    GuardedImage<Gray8> src({256, 1}), dst({256, 1});
+    for (int x = 0; x < 256; ++x) src(x, 0) = static_cast<Gray8>(x);
+    const auto compare = [&](int scale, int offset) {
+        const Ratio factor = Ratio::from_raw(scale);
+        const GrayLevel step = GrayLevel::from_raw(offset);
+        ASSERT_EQ(affine(src.view(), factor, step, dst.view()), Status::ok);
+        const LookupTable table = affine_table(factor, step);
+        for (int x = 0; x < 256; ++x) ASSERT_EQ(dst(x, 0), table[x]) << scale << " " << offset << " " << x;
+    };
+    constexpr int one = 65536;
+    for (const int scale :
+         {0, 1, -1, one, 60 * one, 60 * one + 1, -60 * one, -60 * one - 1, 100 * one, -100 * one})
+        for (const int offset : {0, 32767, -32768, -32769, 255 * one, 256 * one, -15300 * one, 15556 * one,
+                                 25500 * one, -25500 * one})
+            compare(scale, offset);
+    for (int round = 0; round < 3000; ++round) {
+        const int most = one << random.between(0, 6);
+        const int scale = random.between(-most, most);
+        compare(scale, random.between(-128, 128) * -scale + random.between(-most, most));
+    }
+}
+
 TEST(Affine, AmplifiesWithoutAnOffset) {
     Random random(83);
     const Size size{41, 6};

@@ -49,25 +49,31 @@ template <class Pixel>
 inline constexpr bool is_wide_pixel =
     std::is_same_v<Pixel, Gray16> || std::is_same_v<Pixel, Gradient16> || std::is_same_v<Pixel, Sum32>;
 
-/// A type in which half a unit can be added to a pixel.
+/// value / 2^shift, to the nearest, ties up, held at low and high, then moved by offset. In the bits of the
+/// pixel, so that as many as possible are done at once: the half that decides is the highest bit shifted out,
+/// and only a shift of at least 1 adds it.
 template <class Wide>
-using WiderThan = std::conditional_t<sizeof(Wide) == 2, std::int32_t, std::int64_t>;
+Gray8 narrowed(Wide value, int shift, Wide low, Wide high, Wide offset) {
+    const auto half = static_cast<Wide>(shift == 0 ? 0 : 1);
+    const auto below = static_cast<Wide>(static_cast<Wide>(value >> (shift == 0 ? 0 : shift - 1)) & half);
+    const auto quotient = static_cast<Wide>(static_cast<Wide>(value >> shift) + below);
+    return static_cast<Gray8>(static_cast<Wide>(clamp(quotient, low, high) + offset));
+}
 
 template <class Wide>
 Status narrow_frame(ImageView<const Wide> src, int shift, int offset, ImageView<Gray8> dst) {
     static_assert(is_wide_pixel<Wide>, "narrow() takes Gray16, Gradient16 and Sum32");
-    using Wider = WiderThan<Wide>;
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
     if (shift < 0 || shift >= static_cast<int>(8 * sizeof(Wide))) return Status::bad_argument;
-    const Wider half = shift == 0 ? Wider{0} : static_cast<Wider>(Wider{1} << (shift - 1));
+    // An offset comes with pixels that have a sign alone.
+    const auto low = static_cast<Wide>(-offset);
+    const auto high = static_cast<Wide>(255 - offset);
     for (int y = 0; y < src.height(); ++y) {
         const Wide* from = src.row(y);
         Gray8* to = dst.row(y);
-        for (int x = 0; x < src.width(); ++x) {
-            const auto value = static_cast<Wider>(((Wider{from[x]} + half) >> shift) + offset);
-            to[x] = static_cast<Gray8>(clamp<Wider>(value, 0, 255));
-        }
+        for (int x = 0; x < src.width(); ++x)
+            to[x] = narrowed(from[x], shift, low, high, static_cast<Wide>(offset));
     }
     return Status::ok;
 }

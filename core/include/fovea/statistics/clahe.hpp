@@ -125,7 +125,7 @@ inline Status clahe(ImageView<const Gray8> src, Size tiles, int clip, Span<std::
     const detail::ClaheAxis across{src.width(), minimum(tiles.width, src.width())};
     const detail::ClaheAxis down{src.height(), minimum(tiles.height, src.height())};
     Arena arena(scratch);
-    Histogram& histogram = arena.take<Histogram>(1)[0];
+    Histogram& histogram = detail::take_histogram(arena);
     std::uint32_t* joined = arena.take<std::uint32_t>(256 * std::ptrdiff_t{across.tiles}).data();
     std::uint16_t* weights = arena.take<std::uint16_t>(src.width()).data();
     Gray8* tables = arena.rest().data();

@@ -117,7 +117,8 @@ Status equalize_frame(ImageView<const Gray8> src, Table table, Span<std::uint8_t
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
     if (scratch.size() < equalize_scratch()) return Status::scratch_too_small;
-    Histogram& histogram = Arena(scratch).take<Histogram>(1)[0];
+    Arena arena(scratch);
+    Histogram& histogram = detail::take_histogram(arena);
     if (Status s = histogram_of(src, histogram); s != Status::ok) return s;
     return apply_lut(src, *table(histogram), dst);
 }
@@ -148,18 +149,19 @@ inline Status normalize_colour(ImageView<const Rgb888> src, Span<std::uint8_t> s
         }
     }
     const auto total = static_cast<std::uint64_t>(src.size().area());
-    const auto table_of = [&](int first) {
-        return detail::share_table([&](int x) { return counts[first + x]; }, total, 0);
-    };
-    const LookupTable red = table_of(0);
-    const LookupTable green = table_of(256);
-    const LookupTable blue = table_of(512);
+    // The tables take the place of the counts that they are made from.
+    Gray8* tables = reinterpret_cast<Gray8*>(counts);
+    for (int channel = 0; channel < 3; ++channel) {
+        const std::uint32_t* of_channel = counts + 256 * channel;
+        const LookupTable table = detail::share_table([&](int x) { return of_channel[x]; }, total, 0);
+        for (int x = 0; x < 256; ++x) tables[256 * channel + x] = table.levels[x];
+    }
     for (int y = 0; y < src.height(); ++y) {
         const Rgb888* from = src.row(y);
         Rgb888* to = dst.row(y);
         for (int x = 0; x < src.width(); ++x) {
             const Rgb888 colour = from[x];
-            to[x] = {red.levels[colour.red], green.levels[colour.green], blue.levels[colour.blue]};
+            to[x] = {tables[colour.red], tables[256 + colour.green], tables[512 + colour.blue]};
         }
     }
     return Status::ok;

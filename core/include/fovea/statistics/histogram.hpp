@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/image/image_view.hpp>
@@ -100,6 +101,19 @@ constexpr Result<Gray8> quantile(const Histogram& histogram, std::uint32_t share
 constexpr Result<Gray8> otsu(const Histogram& histogram);
 
 // ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+/// A cleared histogram in scratch. As its words: a whole one made on the stack would be 1 KiB of it.
+inline Histogram& take_histogram(Arena& arena) {
+    static_assert(
+        sizeof(Histogram) % sizeof(std::uint32_t) == 0 && alignof(Histogram) == alignof(std::uint32_t),
+        "a histogram is made of words");
+    return *reinterpret_cast<Histogram*>(
+        arena.take<std::uint32_t>(sizeof(Histogram) / sizeof(std::uint32_t)).data());
+}
+
+}  // namespace detail
 
 constexpr Status histogram_of(ImageView<const Gray8> src, Histogram& histogram) {
     if (src.empty()) return Status::empty_image;

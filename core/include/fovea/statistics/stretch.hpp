@@ -77,7 +77,8 @@ inline Status histogram_stretching(ImageView<const Gray8> src, std::uint32_t low
     if (dst.size() != src.size()) return Status::size_mismatch;
     if (low > high || high > whole_share) return Status::bad_argument;
     if (scratch.size() < histogram_stretching_scratch()) return Status::scratch_too_small;
-    Histogram& histogram = Arena(scratch).take<Histogram>(1)[0];
+    Arena arena(scratch);
+    Histogram& histogram = detail::take_histogram(arena);
     if (Status s = histogram_of(src, histogram); s != Status::ok) return s;
     return apply_lut(src, stretch_table(*quantile(histogram, low), *quantile(histogram, high)), dst);
 }
