@@ -91,7 +91,7 @@ inline void simd_lanes(Workspace& work, Digest& digest) {
     static_assert(width % simd::lanes == 0, "whole vectors");
     Random random(11);
     const ImageView<Gray8> src = work.view<Gray8>(0, {width, 2});
-    const ImageView<Gray8> dst = work.view<Gray8>(1, {width, 12});
+    const ImageView<Gray8> dst = work.view<Gray8>(1, {width, 17});
     fill(src, Filling::random, random);
     for (int x = 0; x < width; x += simd::lanes) {
         const auto a = simd::Bytes::load(src.row(0) + x);
@@ -111,9 +111,14 @@ inline void simd_lanes(Workspace& work, Digest& digest) {
         (p * 255 >> 8).narrow().store(dst.row(10) + x);
         a.store(dst.row(11) + x, simd::lanes - 1);
         dst(x + simd::lanes - 1, 11) = 1;
+        (a + b).store(dst.row(12) + x);
+        (a - b).store(dst.row(13) + x);
+        add_saturated(a, b).store(dst.row(14) + x);
+        subtract_saturated(a, b).store(dst.row(15) + x);
+        average(a, b).store(dst.row(16) + x);
     }
     // Half a vector, and all but its last pixel, differ by width.
-    digest.add(*dst.crop({0, 0, width, 9}), *dst.crop({0, 10, width, 1}));
+    digest.add(*dst.crop({0, 0, width, 9}), *dst.crop({0, 10, width, 1}), *dst.crop({0, 12, width, 5}));
     for (int x = 0; x < width; x += simd::lanes)
         for (int i = 0; i < simd::lanes; ++i) {
             FOVEA_ASSERT(dst(x + i, 9) == (i < simd::lanes / 2 ? src(x + i, 0) : 0));

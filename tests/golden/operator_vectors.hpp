@@ -46,17 +46,20 @@ inline void put_image(Digest& digest, const AnyImage& image, PixelKind kind) {
     }
 }
 
-/// 16-bit inputs hold numbers of a machine: written as such.
+/// Wide inputs hold numbers of a machine: written as such.
 inline void to_machine_order(const AnyImage& image, PixelKind kind) {
-    if (__BYTE_ORDER__ != __ORDER_BIG_ENDIAN__ ||
-        (kind != PixelKind::gray16 && kind != PixelKind::gradient16 && kind != PixelKind::rgb565))
-        return;
+    const bool wide = kind == PixelKind::gray16 || kind == PixelKind::gradient16 ||
+                      kind == PixelKind::rgb565 || kind == PixelKind::sum32;
+    if (__BYTE_ORDER__ != __ORDER_BIG_ENDIAN__ || !wide) return;
     auto* bytes = static_cast<std::uint8_t*>(image.first);
-    for (std::int64_t i = 0; i < image.size.area(); ++i) {
-        const std::uint8_t low = bytes[2 * i];
-        bytes[2 * i] = bytes[2 * i + 1];
-        bytes[2 * i + 1] = low;
-    }
+    const int count = bytes_of(kind);
+    for (std::int64_t i = 0; i < image.size.area(); ++i)
+        for (int low = 0; low < count / 2; ++low) {
+            std::uint8_t* pixel = bytes + count * i;
+            const std::uint8_t kept = pixel[low];
+            pixel[low] = pixel[count - 1 - low];
+            pixel[count - 1 - low] = kept;
+        }
 }
 
 /// One run of an operator, if the workspace has room for it.

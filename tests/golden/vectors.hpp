@@ -22,6 +22,7 @@
 #include <golden/morphology_vectors.hpp>
 #include <golden/operator_vectors.hpp>
 #include <golden/segment_vectors.hpp>
+#include <golden/statistics_vectors.hpp>
 #include <golden/stream_vectors.hpp>
 #include <golden/warp_vectors.hpp>
 #include <golden/workspace.hpp>
@@ -52,19 +53,25 @@ inline constexpr Vector vectors[] = {
     {"stream/filters", stream_filters},
     {"simd/interleave", simd_interleave},
     {"image/row_kernel", image_row_kernel},
-    {"image/views", image_views},
     {"pixelwise/colour_class", pixelwise_colour_class},
     {"pixelwise/colour_model", pixelwise_colour_model},
+    {"pixelwise/frames", pixelwise_frames},
     {"pixelwise/hsv", pixelwise_hsv},
     {"pixelwise/lab", pixelwise_lab},
     {"pixelwise/planes", pixelwise_planes},
+    {"pixelwise/tables", pixelwise_tables},
     {"pixelwise/threshold", pixelwise_threshold},
     {"pixelwise/to_gray", pixelwise_to_gray},
     {"pixelwise/video", pixelwise_video},
+    {"statistics/distances", statistics_distances},
     {"statistics/histogram", statistics_histogram},
+    {"statistics/integral", statistics_integral},
+    {"statistics/masked_histogram", statistics_masked_histogram},
     {"statistics/moments", statistics_moments},
     {"statistics/polygon_moments", statistics_polygon_moments},
     {"statistics/polygon_symmetry", statistics_polygon_symmetry},
+    {"statistics/projection", statistics_projection},
+    {"statistics/reductions", statistics_reductions},
     {"morphology/rectangles", morphology_rectangles},
     {"morphology/shapes", morphology_shapes},
     {"morphology/thinning", morphology_thinning},

@@ -64,6 +64,38 @@ TEST(Threshold, WorksInPlace) {
     EXPECT_TRUE(equal(src.view(), dst.view()));
 }
 
+TEST(ThresholdFilter, KeepsWhatIsAtLeastTheLevelAndTheInverseTheRest) {
+    Random random(33);
+    for (const Size size : test_sizes())
+        for (const int level : {0, 1, 100, 128, 255}) {
+            GuardedImage<Gray8> src(size), kept(size), rest(size);
+            src.fill(random);
+            ASSERT_EQ(threshold_filter(src.view(), static_cast<Gray8>(level), kept.view()), Status::ok);
+            ASSERT_EQ(threshold_filter_inverse(src.view(), static_cast<Gray8>(level), rest.view()),
+                      Status::ok);
+            for (int y = 0; y < size.height; ++y)
+                for (int x = 0; x < size.width; ++x) {
+                    ASSERT_EQ(kept(x, y), src(x, y) >= level ? src(x, y) : 0);
+                    ASSERT_EQ(kept(x, y) + rest(x, y), src(x, y)) << "no pixel is in both or in none";
+                }
+        }
+}
+
+TEST(Threshold, IsTheSameWithAndWithoutGapsBetweenTheRows) {
+    Random random(34);
+    const Size size{37, 9};
+    GuardedImage<Gray8> apart(size, 3), joined(size, 0), out_apart(size, 3), out_joined(size, 0),
+        mixed(size, 0);
+    apart.fill(random);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) joined(x, y) = apart(x, y);
+    ASSERT_EQ(threshold(apart.view(), 90, out_apart.view()), Status::ok);
+    ASSERT_EQ(threshold(joined.view(), 90, out_joined.view()), Status::ok);
+    ASSERT_EQ(threshold(apart.view(), 90, mixed.view()), Status::ok);
+    EXPECT_TRUE(equal(out_apart.view(), out_joined.view()));
+    EXPECT_TRUE(equal(out_apart.view(), mixed.view()));
+}
+
 TEST(Threshold, SaysWhatIsWrongAndLeavesTheOutput) {
     GuardedImage<Gray8> src({4, 4}), dst({4, 4}), other({4, 5});
     src.fill(Gray8{1});

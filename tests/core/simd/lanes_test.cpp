@@ -116,6 +116,34 @@ TEST(Bytes, WorksOnEveryPixelAlone) {
     }
 }
 
+TEST(Bytes, AddAndSubtractEveryPairOfLevels) {
+    for (int a = 0; a < 256; ++a)
+        for (int first = 0; first < 256; first += static_cast<int>(lanes)) {
+            // Neighbours differ, so that a carry into one would show.
+            Pixels left{};
+            Pixels right{};
+            for (std::size_t i = 0; i < lanes; ++i) {
+                left[i] = static_cast<std::uint8_t>(i % 2 == 0 ? a : 255 - a);
+                right[i] = static_cast<std::uint8_t>(first + static_cast<int>(i));
+            }
+            const auto with = [&](auto operation) {
+                return stored([&] { return operation(Bytes::load(left.data()), Bytes::load(right.data())); });
+            };
+            const Pixels sum = with([](Bytes x, Bytes y) { return x + y; });
+            const Pixels difference = with([](Bytes x, Bytes y) { return x - y; });
+            const Pixels held_sum = with([](Bytes x, Bytes y) { return add_saturated(x, y); });
+            const Pixels held_difference = with([](Bytes x, Bytes y) { return subtract_saturated(x, y); });
+            const Pixels mean = with([](Bytes x, Bytes y) { return average(x, y); });
+            for (std::size_t i = 0; i < lanes; ++i) {
+                ASSERT_EQ(sum[i], (left[i] + right[i]) % 256);
+                ASSERT_EQ(difference[i], (256 + left[i] - right[i]) % 256);
+                ASSERT_EQ(held_sum[i], std::min(left[i] + right[i], 255));
+                ASSERT_EQ(held_difference[i], std::max(left[i] - right[i], 0));
+                ASSERT_EQ(mean[i], (left[i] + right[i] + 1) / 2);
+            }
+        }
+}
+
 TEST(Bytes, SpreadsOneValueOverAllPixels) {
     for (int value = 0; value < 256; ++value)
         for (const std::uint8_t pixel : stored([&] { return Bytes::all(static_cast<std::uint8_t>(value)); }))

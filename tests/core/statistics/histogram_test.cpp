@@ -55,6 +55,44 @@ TEST(HistogramOf, LeavesTheHistogramWhenThereIsNoImage) {
     EXPECT_EQ(histogram[5], 1u);
 }
 
+TEST(HistogramOf, CountsOnlyWhereTheMaskIsSet) {
+    Random random(54);
+    for (const Size size : test_sizes()) {
+        GuardedImage<Gray8> src(size), mask(size);
+        src.fill(random);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) mask(x, y) = static_cast<Gray8>(random.below(3) * 100);
+        Histogram histogram = of_levels({1, 2, 3});
+        ASSERT_EQ(histogram_of(src.view(), mask.view(), histogram), Status::ok);
+        std::vector<std::uint32_t> counts(256);
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) counts[src(x, y)] += mask(x, y) != 0 ? 1u : 0u;
+        for (int level = 0; level < 256; ++level)
+            ASSERT_EQ(histogram[level], counts[static_cast<std::size_t>(level)]);
+    }
+}
+
+TEST(HistogramOf, OfACropCountsTheRegion) {
+    GuardedImage<Gray8> src({9, 7});
+    src.fill(Gray8{4});
+    for (int y = 2; y < 5; ++y)
+        for (int x = 3; x < 8; ++x) src(x, y) = 9;
+    Histogram histogram;
+    ASSERT_EQ(histogram_of(*src.view().crop({3, 2, 5, 3}), histogram), Status::ok);
+    EXPECT_EQ(histogram[9], 15u);
+    EXPECT_EQ(histogram.total(), 15u);
+}
+
+TEST(HistogramOf, SaysWhenTheMaskDoesNotFit) {
+    GuardedImage<Gray8> src({4, 3}), mask({4, 2});
+    src.fill(Gray8{1});
+    mask.fill(Gray8{255});
+    Histogram histogram = of_levels({5});
+    EXPECT_EQ(histogram_of(src.view(), mask.view(), histogram), Status::size_mismatch);
+    EXPECT_EQ(histogram_of(src.view(), ImageView<const Gray8>(), histogram), Status::empty_image);
+    EXPECT_EQ(histogram[5], 1u);
+}
+
 TEST(Quantile, CountsPixelsThatAreNotBrighter) {
     const Histogram histogram = of_levels({10, 20, 30, 40});
     EXPECT_EQ(*quantile(histogram, 0), 10);

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <fovea/base/span.hpp>
+#include <fovea/catalogue/adaptive.hpp>
 #include <fovea/catalogue/colour.hpp>
 #include <fovea/catalogue/filter.hpp>
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/catalogue/pixelwise.hpp>
+#include <fovea/catalogue/statistics.hpp>
 #include <fovea/catalogue/warp.hpp>
 
 namespace fovea {
@@ -17,8 +19,10 @@ inline namespace FOVEA_ISA {
 
 /// All families, in the order of core/layers.txt.
 inline constexpr OperatorFamily operator_families[] = {
-    {"pixelwise", catalogue::pixelwise},   {"colour", catalogue::colour}, {"filter", catalogue::filter},
+    {"pixelwise", catalogue::pixelwise},   {"colour", catalogue::colour},
+    {"statistics", catalogue::statistics}, {"filter", catalogue::filter},
     {"morphology", catalogue::morphology}, {"warp", catalogue::warp},
+    {"segment", catalogue::adaptive},
 };
 
 /// The operator of a name; null if there is none.

@@ -8,9 +8,9 @@
 #include <fovea/base/status.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
+#include <fovea/pixelwise/point_rows.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
-#include <fovea/simd/lines.hpp>
 
 namespace fovea {
 
@@ -36,28 +36,20 @@ inline Status threshold_inverse(ImageView<const Gray8> src, Gray8 level, ImageVi
 /// Errors  also bad_argument if low is above high
 inline Status threshold_range(ImageView<const Gray8> src, Gray8 low, Gray8 high, ImageView<Gray8> dst);
 
+/// Keeps a pixel that is at least level; the others become 0. All else as threshold().
+///
+/// Source  book sec. 2.4; the toolkit's ThresholdFilter(level)
+inline Status threshold_filter(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst);
+
+/// Keeps a pixel that is below level; the others become 0, so that both filters add up to the source. All
+/// else as threshold().
+///
+/// Source  as above; the toolkit's inverse also kept pixels at level itself
+inline Status threshold_filter_inverse(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst);
+
 // ---- Implementation ---------------------------------------------------------------
 
 namespace kernels {
-
-/// dst[x] = op(src[x]) for one row; dst may be src.
-template <class Operation>
-void point_row(const Gray8* src, int width, Operation op, Gray8* dst) {
-    simd::for_each_vector(width, [&](int x, int count) {
-        if (count == simd::lanes)
-            op(simd::Bytes::load(src + x)).store(dst + x);
-        else
-            op(simd::Bytes::load(src + x, count)).store(dst + x, count);
-    });
-}
-
-template <class Operation>
-Status point_frame(ImageView<const Gray8> src, Operation op, ImageView<Gray8> dst) {
-    if (src.empty()) return Status::empty_image;
-    if (dst.size() != src.size()) return Status::size_mismatch;
-    for (int y = 0; y < src.height(); ++y) point_row(src.row(y), src.width(), op, dst.row(y));
-    return Status::ok;
-}
 
 /// threshold() of one row, for rows that come one at a time.
 inline void threshold_row(const Gray8* src, int width, Gray8 level, Gray8* dst) {
@@ -95,6 +87,18 @@ inline Status threshold_range(ImageView<const Gray8> src, Gray8 low, Gray8 high,
     const simd::Bytes last = simd::Bytes::all(high);
     return kernels::point_frame(
         src, [=](simd::Bytes pixels) { return at_least(pixels, first) & at_least(last, pixels); }, dst);
+}
+
+inline Status threshold_filter(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
+    const simd::Bytes limit = simd::Bytes::all(level);
+    return kernels::point_frame(
+        src, [=](simd::Bytes pixels) { return pixels & at_least(pixels, limit); }, dst);
+}
+
+inline Status threshold_filter_inverse(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
+    const simd::Bytes limit = simd::Bytes::all(level);
+    return kernels::point_frame(
+        src, [=](simd::Bytes pixels) { return pixels & ~at_least(pixels, limit); }, dst);
 }
 
 }  // namespace FOVEA_ISA

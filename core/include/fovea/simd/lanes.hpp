@@ -57,6 +57,20 @@ struct Bytes {
         return Bytes{bits_as<RawBytes>(shift_right(bits_as<RawWords>(a.raw), n))} &
                all(static_cast<std::uint8_t>(255 >> n));
     }
+    // The three below add and subtract whole vectors: no byte overflows, so none carries into its neighbour.
+    /// Sum, at most 255.
+    [[gnu::always_inline]] friend Bytes add_saturated(Bytes a, Bytes b) {
+        return {a.raw + lower(b.raw, ~a.raw)};
+    }
+    /// Difference, at least 0.
+    [[gnu::always_inline]] friend Bytes subtract_saturated(Bytes a, Bytes b) {
+        return {a.raw - lower(a.raw, b.raw)};
+    }
+    /// (a + b + 1) / 2.
+    [[gnu::always_inline]] friend Bytes average(Bytes a, Bytes b) {
+        const RawWords half = shift_right(bits_as<RawWords>(a.raw ^ b.raw), 1);
+        return {(a.raw | b.raw) - (bits_as<RawBytes>(half) & all_bytes(127))};
+    }
 };
 
 /// The same pixels at 16 bits, even and odd columns apart, so that nothing is shuffled.

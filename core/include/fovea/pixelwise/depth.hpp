@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+//
+// From 8 bits to more and back by a fixed scale. By the picture's own range: statistics/stretch.hpp.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/image/pixel.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// The same numbers in wider pixels: Gray16, Gradient16 or Sum32.
+///
+/// Shapes   src and dst equal, 1x1 or larger
+/// Overlap  none
+/// Errors   empty_image, size_mismatch
+/// Source   the toolkit's ConvertImage from byte
+template <class Wide>
+Status widen(ImageView<const Gray8> src, ImageView<Wide> dst);
+
+/// Gray16, Gradient16 or Sum32 divided by 2^shift, held at 0 and 255. A scale that is the same for every
+/// picture, so that brightness does not flicker.
+///
+/// Shapes    src and dst equal, 1x1 or larger
+/// Units     shift 0 to one less than the bits of a pixel
+/// Rounding  nearest, ties up
+/// Overlap   none
+/// Errors    empty_image, size_mismatch, bad_argument for a shift out of range
+/// Source    in place of the toolkit's scaling by the range of each picture
+template <class Wide>
+Status narrow(ImageView<const Wide> src, int shift, ImageView<Gray8> dst);
+
+/// 128 + src / 2^shift, held at 0 and 255: a derivative for the eye, with 128 where there is none. All else
+/// as narrow().
+inline Status narrow_about_128(ImageView<const Gradient16> src, int shift, ImageView<Gray8> dst);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+template <class Pixel>
+inline constexpr bool is_wide_pixel =
+    std::is_same_v<Pixel, Gray16> || std::is_same_v<Pixel, Gradient16> || std::is_same_v<Pixel, Sum32>;
+
+/// value / 2^shift, to the nearest, ties up, held at low and high, then moved by offset. In the bits of the
+/// pixel, so that as many as possible are done at once: the half that decides is the highest bit shifted out,
+/// and only a shift of at least 1 adds it.
+template <class Wide>
+Gray8 narrowed(Wide value, int shift, Wide low, Wide high, Wide offset) {
+    const auto half = static_cast<Wide>(shift == 0 ? 0 : 1);
+    const auto below = static_cast<Wide>(static_cast<Wide>(value >> (shift == 0 ? 0 : shift - 1)) & half);
+    const auto quotient = static_cast<Wide>(static_cast<Wide>(value >> shift) + below);
+    return static_cast<Gray8>(static_cast<Wide>(clamp(quotient, low, high) + offset));
+}
+
+template <class Wide>
+Status narrow_frame(ImageView<const Wide> src, int shift, int offset, ImageView<Gray8> dst) {
+    static_assert(is_wide_pixel<Wide>, "narrow() takes Gray16, Gradient16 and Sum32");
+    if (src.empty()) return Status::empty_image;
+    if (dst.size() != src.size()) return Status::size_mismatch;
+    if (shift < 0 || shift >= static_cast<int>(8 * sizeof(Wide))) return Status::bad_argument;
+    // An offset comes with pixels that have a sign alone.
+    const auto low = static_cast<Wide>(-offset);
+    const auto high = static_cast<Wide>(255 - offset);
+    for (int y = 0; y < src.height(); ++y) {
+        const Wide* from = src.row(y);
+        Gray8* to = dst.row(y);
+        for (int x = 0; x < src.width(); ++x)
+            to[x] = narrowed(from[x], shift, low, high, static_cast<Wide>(offset));
+    }
+    return Status::ok;
+}
+
+}  // namespace detail
+
+template <class Wide>
+Status widen(ImageView<const Gray8> src, ImageView<Wide> dst) {
+    static_assert(detail::is_wide_pixel<Wide>, "widen() makes Gray16, Gradient16 and Sum32");
+    if (src.empty()) return Status::empty_image;
+    if (dst.size() != src.size()) return Status::size_mismatch;
+    for (int y = 0; y < src.height(); ++y) {
+        const Gray8* from = src.row(y);
+        Wide* to = dst.row(y);
+        for (int x = 0; x < src.width(); ++x) to[x] = static_cast<Wide>(from[x]);
+    }
+    return Status::ok;
+}
+
+template <class Wide>
+Status narrow(ImageView<const Wide> src, int shift, ImageView<Gray8> dst) {
+    return detail::narrow_frame(src, shift, 0, dst);
+}
+
+inline Status narrow_about_128(ImageView<const Gradient16> src, int shift, ImageView<Gray8> dst) {
+    return detail::narrow_frame(src, shift, 128, dst);
+}
+
+}  // namespace fovea
