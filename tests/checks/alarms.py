@@ -121,10 +121,22 @@ def tidy(folder):
               ("a macro of nobody", "#define MAX_SIZE 3", "invalid case style for macro"),
               ("a copy in a loop", "struct Big { int a[99]; Big(const Big&); };\nint sum(const Big (&all)[3]) { int s = 0; "
                "for (const Big b : all) s += b.a[0]; return s; }", "performance-for-range-copy"),
+              ("a name nobody uses", "namespace a { struct B; }\nusing a::B;", "misc-unused-using-decls"),
+              ("a short name nobody uses", "namespace a { struct B; }\nnamespace b = a;", "misc-unused-alias-decls"),
+              ("a definition", "int f() { return 1; }", "misc-definitions-in-headers"),
               ("a branch twice", "int f(int a) { if (a > 0) return 1; else return 1; }", "bugprone-branch-clone")]
+    def trial(number, files):
+        tree = write(folder / str(number), files)
+        return [CHECKS / "tidy.py", "--root", tree, "--cache", tree / "cache"]
+
     for number, (what, text, words) in enumerate(faults):
-        tree = write(folder / str(number), {"core/include/fovea/base/a.hpp": HEAD + text + "\n"})
-        yield what, [CHECKS / "tidy.py", "--root", tree, "--cache", tree / "cache"], words
+        yield what, trial(number, {BASE: HEAD + text + "\n"}), words
+    fault = "struct box {};\n"
+    for number, path in enumerate(["hal/include/fovea/hal/h.hpp", "ports/linux/include/fovea/linux/p.hpp",
+                                   "apps/fovea/a.hpp"], 20):
+        yield f"a fault in {path}", trial(number, {path: HEAD + fault}), "invalid case style for struct 'box'"
+    yield "a fault in a program", trial(30, {"apps/fovea/main.cpp": SPDX + fault}), "invalid case style for struct 'box'"
+    yield "no files", trial(40, {"README.md": ""}), "no files"
 
 
 @alarm
