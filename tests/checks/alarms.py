@@ -326,21 +326,51 @@ def memory(folder):
 
 @alarm
 def skips(folder):
-    def junit(name, status):
-        return write(folder, {name: f'<testsuite><testcase name="Detector.FindsThePart" status="{status}"/></testsuite>'}) / name
+    def report(name, status, result):
+        test = f'<testcase name="FindsThePart" status="{status}" result="{result}" classname="Detector"/>'
+        return write(folder, {name: f"<testsuites><testsuite>{test}</testsuite></testsuites>"}) / name
 
-    write(folder, {"none.xml": "<testsuite/>", "expected": "Detector.*   a picture\n", "nothing_expected": "# none\n"})
+    write(folder, {"none.xml": "<testsuites/>", "expected": "Detector.*   a picture\n", "nothing_expected": "# none\n"})
     here, gone = f"FOVEA_TEST_DATA={folder}", f"FOVEA_TEST_DATA={folder}/gone"
 
     def trial(data, expected, report):
         return ["env", data, CHECKS / "skips.py", "--expected", folder / expected, report]
 
-    yield "a test that ran", trial(gone, "expected", junit("ran.xml", "run")), None
-    yield "an expected skip", trial(gone, "expected", junit("skip.xml", "notrun")), None
-    yield "an unexpected skip", trial(gone, "nothing_expected", junit("other.xml", "notrun")), "must not be: Detector"
-    yield "a skip although the pictures are here", trial(here, "expected", junit("here.xml", "notrun")), "must not be: Detector"
-    yield "a disabled test", trial(gone, "nothing_expected", junit("off.xml", "disabled")), "must not be: Detector"
+    yield "a test that ran", trial(gone, "expected", report("ran.xml", "run", "completed")), None
+    yield "an expected skip", trial(gone, "expected", report("skip.xml", "run", "skipped")), None
+    yield "an unexpected skip", trial(gone, "nothing_expected", report("other.xml", "run", "skipped")), "must not be: Detector"
+    yield "a skip although the pictures are here", trial(here, "expected", report("here.xml", "run", "skipped")), "must not be: Detector"
+    yield "a disabled test", trial(gone, "nothing_expected", report("off.xml", "notrun", "suppressed")), "must not be: Detector"
+    several = write(folder / "several", {"a.xml": (folder / "ran.xml").read_text(), "b.xml": (folder / "skip.xml").read_text()})
+    yield "a skip in one of several reports", trial(gone, "nothing_expected", several), "must not be: Detector"
     yield "no tests", trial(gone, "expected", folder / "none.xml"), "no tests were run"
+    yield "no reports", trial(gone, "expected", write(folder / "empty", {"a": ""})), "no tests were run"
+
+
+@alarm
+def programs(folder):
+    """A true test program with a fault each; and what GoogleTest itself would never do."""
+    text = """#include <gtest/gtest.h>
+              #include <cstdlib>
+              #include <unistd.h>
+              TEST(Detector, FindsThePart) { SUCCEED(); }
+              TEST(Detector, FindsTheHole) { FAULT; }"""
+    for number, (what, fault, words) in enumerate([
+            ("tests that pass", "SUCCEED()", None), ("a test that fails", "FAIL() << 42", "42"),
+            ("a test that hangs", "std::printf(\"in the hole\"); std::fflush(stdout); ::pause()", "in the hole"),
+            ("a test that crashes", "std::abort()", "test_planted ended with -6"),
+            ("a test that ends the program", "std::exit(0)", "test_planted left no report")]):
+        tests = write(folder / str(number) / "tests", {"planted.cpp": text.replace("FAULT", fault)})
+        yield what, ["sh", "-c", f"cd {tests} && g++ planted.cpp -lgtest_main -lgtest -o test_planted && "
+                                 f"{CHECKS}/programs.py --seconds 5 .. test_planted"], words
+    hanging = folder / "2"
+    yield "the limit of time", [CHECKS / "programs.py", "--seconds", "0.5", hanging, "test_planted"], "ran for more than 0.5 s"
+    listed = "add_test(Detector.FindsThePart {})\n"
+    for what, program, words in [("what ctest lists", "tests/test_planted", "test_planted ran for more"),
+                                 ("a program that was not built", "tests/gone", "not built")]:
+        write(hanging, {"CTestTestfile.cmake": listed.format(hanging / program)})
+        yield what, [CHECKS / "programs.py", "--seconds", "0.5", hanging], words
+    yield "no programs", [CHECKS / "programs.py", write(folder / "empty", {"CTestTestfile.cmake": ""})], "0 programs"
 
 
 @alarm
