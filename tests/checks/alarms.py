@@ -362,10 +362,12 @@ def programs(folder):
             ("tests that pass", "SUCCEED()", None), ("a test that fails", "FAIL() << 42", "42"),
             ("a test that hangs", "std::printf(\"in the hole\"); std::fflush(stdout); ::pause()", "in the hole"),
             ("a test that crashes", "std::abort()", "test_planted ended with -6"),
-            ("a test that ends the program", "std::exit(0)", "test_planted left no report")]):
+            ("a test that ends the program", "std::exit(0)", "test_planted left no report"),
+            ("a test that is skipped", "GTEST_SKIP()", "must not be: Detector.FindsTheHole"),
+            ("a disabled test", "SUCCEED(); } TEST(Detector, DISABLED_FindsTheEdge) {", "must not be: Detector.DISABLED_FindsTheEdge")]):
         tests = write(folder / str(number) / "tests", {"planted.cpp": text.replace("FAULT", fault)})
         yield what, ["sh", "-c", f"cd {tests} && g++ planted.cpp -lgtest_main -lgtest -o test_planted && "
-                                 f"{CHECKS}/programs.py --seconds 5 .. test_planted"], words
+                                 f"{CHECKS}/programs.py --seconds 5 .. test_planted && {CHECKS}/skips.py ../reports"], words
     hanging = folder / "2"
     yield "the limit of time", [CHECKS / "programs.py", "--seconds", "0.5", hanging, "test_planted"], "ran for more than 0.5 s"
     listed = "add_test(Detector.FindsThePart {})\n"
