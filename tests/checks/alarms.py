@@ -121,10 +121,22 @@ def tidy(folder):
               ("a macro of nobody", "#define MAX_SIZE 3", "invalid case style for macro"),
               ("a copy in a loop", "struct Big { int a[99]; Big(const Big&); };\nint sum(const Big (&all)[3]) { int s = 0; "
                "for (const Big b : all) s += b.a[0]; return s; }", "performance-for-range-copy"),
+              ("a name nobody uses", "namespace a { struct B; }\nusing a::B;", "misc-unused-using-decls"),
+              ("a short name nobody uses", "namespace a { struct B; }\nnamespace b = a;", "misc-unused-alias-decls"),
+              ("a definition", "int f() { return 1; }", "misc-definitions-in-headers"),
               ("a branch twice", "int f(int a) { if (a > 0) return 1; else return 1; }", "bugprone-branch-clone")]
+    def trial(number, files):
+        tree = write(folder / str(number), files)
+        return [CHECKS / "tidy.py", "--root", tree, "--cache", tree / "cache"]
+
     for number, (what, text, words) in enumerate(faults):
-        tree = write(folder / str(number), {"core/include/fovea/base/a.hpp": HEAD + text + "\n"})
-        yield what, [CHECKS / "tidy.py", "--root", tree, "--cache", tree / "cache"], words
+        yield what, trial(number, {BASE: HEAD + text + "\n"}), words
+    fault = "struct box {};\n"
+    for number, path in enumerate(["hal/include/fovea/hal/h.hpp", "ports/linux/include/fovea/linux/p.hpp",
+                                   "apps/fovea/a.hpp"], 20):
+        yield f"a fault in {path}", trial(number, {path: HEAD + fault}), "invalid case style for struct 'box'"
+    yield "a fault in a program", trial(30, {"apps/fovea/main.cpp": SPDX + fault}), "invalid case style for struct 'box'"
+    yield "no files", trial(40, {"README.md": ""}), "no files"
 
 
 @alarm
@@ -147,10 +159,13 @@ def self_containment(folder):
     for what, text, words in [("good", "#include <cstdint>\ninline std::uint8_t f() { return 0; }\n", None),
                               ("bad", "inline std::uint8_t f() { return 0; }\n", "does not name a type")]:
         tree = copy_of_project(folder / what)
-        shutil.rmtree(tree / "core/include")
-        write(tree, {BASE: HEAD + text, "tests/target/gauge_objects.cpp": ""})
+        for part in ("core", "hal", "ports", "apps"):
+            for header in (tree / part).rglob("*.hpp"):
+                header.unlink()
+        # a.hpp stands before z.hpp wherever all headers are included.
+        write(tree, {BASE: HEAD + "#include <cstdint>\n", "core/include/fovea/base/z.hpp": HEAD + text})
         yield what, ["sh", "-c", f"cmake --preset host -S {tree} -DCMAKE_CXX_COMPILER=g++ > /dev/null 2>&1; "
-                                 f"cmake --build {tree}/build/host --target target_objects"], words
+                                 f"cmake --build {tree}/build/host --target headers_alone"], words
 
 
 @alarm
@@ -314,21 +329,53 @@ def memory(folder):
 
 @alarm
 def skips(folder):
-    def junit(name, status):
-        return write(folder, {name: f'<testsuite><testcase name="Detector.FindsThePart" status="{status}"/></testsuite>'}) / name
+    def report(name, status, result):
+        test = f'<testcase name="FindsThePart" status="{status}" result="{result}" classname="Detector"/>'
+        return write(folder, {name: f"<testsuites><testsuite>{test}</testsuite></testsuites>"}) / name
 
-    write(folder, {"none.xml": "<testsuite/>", "expected": "Detector.*   a picture\n", "nothing_expected": "# none\n"})
+    write(folder, {"none.xml": "<testsuites/>", "expected": "Detector.*   a picture\n", "nothing_expected": "# none\n"})
     here, gone = f"FOVEA_TEST_DATA={folder}", f"FOVEA_TEST_DATA={folder}/gone"
 
     def trial(data, expected, report):
         return ["env", data, CHECKS / "skips.py", "--expected", folder / expected, report]
 
-    yield "a test that ran", trial(gone, "expected", junit("ran.xml", "run")), None
-    yield "an expected skip", trial(gone, "expected", junit("skip.xml", "notrun")), None
-    yield "an unexpected skip", trial(gone, "nothing_expected", junit("other.xml", "notrun")), "must not be: Detector"
-    yield "a skip although the pictures are here", trial(here, "expected", junit("here.xml", "notrun")), "must not be: Detector"
-    yield "a disabled test", trial(gone, "nothing_expected", junit("off.xml", "disabled")), "must not be: Detector"
+    yield "a test that ran", trial(gone, "expected", report("ran.xml", "run", "completed")), None
+    yield "an expected skip", trial(gone, "expected", report("skip.xml", "run", "skipped")), None
+    yield "an unexpected skip", trial(gone, "nothing_expected", report("other.xml", "run", "skipped")), "must not be: Detector"
+    yield "a skip although the pictures are here", trial(here, "expected", report("here.xml", "run", "skipped")), "must not be: Detector"
+    yield "a disabled test", trial(gone, "nothing_expected", report("off.xml", "notrun", "suppressed")), "must not be: Detector"
+    several = write(folder / "several", {"a.xml": (folder / "ran.xml").read_text(), "b.xml": (folder / "skip.xml").read_text()})
+    yield "a skip in one of several reports", trial(gone, "nothing_expected", several), "must not be: Detector"
     yield "no tests", trial(gone, "expected", folder / "none.xml"), "no tests were run"
+    yield "no reports", trial(gone, "expected", write(folder / "empty", {"a": ""})), "no tests were run"
+
+
+@alarm
+def programs(folder):
+    """A true test program with a fault each; and what GoogleTest itself would never do."""
+    text = """#include <gtest/gtest.h>
+              #include <cstdlib>
+              #include <unistd.h>
+              TEST(Detector, FindsThePart) { SUCCEED(); }
+              TEST(Detector, FindsTheHole) { FAULT; }"""
+    for number, (what, fault, words) in enumerate([
+            ("tests that pass", "SUCCEED()", None), ("a test that fails", "FAIL() << 42", "42"),
+            ("a test that hangs", "std::printf(\"in the hole\"); std::fflush(stdout); ::pause()", "in the hole"),
+            ("a test that crashes", "std::abort()", "test_planted ended with -6"),
+            ("a test that ends the program", "std::exit(0)", "test_planted left no report"),
+            ("a test that is skipped", "GTEST_SKIP()", "must not be: Detector.FindsTheHole"),
+            ("a disabled test", "SUCCEED(); } TEST(Detector, DISABLED_FindsTheEdge) {", "must not be: Detector.DISABLED_FindsTheEdge")]):
+        tests = write(folder / str(number) / "tests", {"planted.cpp": text.replace("FAULT", fault)})
+        yield what, ["sh", "-c", f"cd {tests} && g++ planted.cpp -lgtest_main -lgtest -o test_planted && "
+                                 f"{CHECKS}/programs.py --seconds 5 .. test_planted && {CHECKS}/skips.py ../reports"], words
+    hanging = folder / "2"
+    yield "the limit of time", [CHECKS / "programs.py", "--seconds", "0.5", hanging, "test_planted"], "ran for more than 0.5 s"
+    listed = "add_test(Detector.FindsThePart {})\n"
+    for what, program, words in [("what ctest lists", "tests/test_planted", "test_planted ran for more"),
+                                 ("a program that was not built", "tests/gone", "not built")]:
+        write(hanging, {"CTestTestfile.cmake": listed.format(hanging / program)})
+        yield what, [CHECKS / "programs.py", "--seconds", "0.5", hanging], words
+    yield "no programs", [CHECKS / "programs.py", write(folder / "empty", {"CTestTestfile.cmake": ""})], "0 programs"
 
 
 @alarm

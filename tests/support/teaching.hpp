@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
 // Recipes taught from rendered parts, and what they say of others. Host tests only.
+//
+// What teaches, gauges or looks for parts is compiled once, in commands_*.cpp.
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fovea/base/random.hpp>
-#include <gauge/gauge_command.hpp>
 #include <gauge/teach.hpp>
+#include <support/commands.hpp>
 #include <support/parts.hpp>
 #include <support/recipes.hpp>
 
@@ -49,19 +50,14 @@ inline apps::Picture<Gray8> lying(const Shape& shape, double degrees, std::uint6
     return picture_of(one_part_size, {{shape, 124.3, 125.8, degrees}}, light, seed);
 }
 
-inline apps::Taught taught_from(const std::vector<apps::Picture<Gray8>>& pictures,
-                                const apps::TeachOptions& options = {}) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < pictures.size(); ++i) names.push_back("good_" + std::to_string(i));
-    return apps::teach(pictures, names, options);
-}
+apps::Taught taught_from(const std::vector<apps::Picture<Gray8>>& pictures,
+                         const apps::TeachOptions& options = {});
 
 /// The samples of a picture, which is kept for them.
-inline apps::Samples samples_of(const apps::Picture<Gray8>& picture, std::optional<bool> dark = {}) {
-    static std::list<std::vector<apps::Picture<Gray8>>> kept;
-    kept.push_back({picture});
-    return apps::find_samples(kept.back(), {"a.png"}, dark);
-}
+apps::Samples samples_of(const apps::Picture<Gray8>& picture, std::optional<bool> dark = {});
+/// Those of pictures with these names.
+apps::Samples samples_in(const std::vector<apps::Picture<Gray8>>& pictures,
+                         const std::vector<std::string>& names);
 inline std::int64_t pixels_of(const apps::Sample& part) { return part.region.moments.area(); }
 
 /// A picture for two parts, and the plate in one beside another object.
@@ -73,7 +69,7 @@ inline apps::Picture<Gray8> plate_beside(const Shape& other) {
 /// "ok not_ok length:high": the verdicts of the parts in a picture, each with the features that are not OK.
 inline std::string verdicts_of(const apps::Picture<Gray8>& picture, const Recipe& recipe) {
     std::vector<PartResult> parts;
-    const Status status = apps::gauge_picture(picture, recipe, parts);
+    const Status status = gauge_parts(picture, recipe, parts);
     if (status != Status::ok) return describe(status);
     std::string text;
     for (const PartResult& part : parts) {

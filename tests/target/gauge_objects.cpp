@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The templates of the core, instantiated as a program for a chip or a board would: what the generated
-// sources of the headers do not hold. tests/checks/binary.py and stack.py read the object;
-// tests/golden/memory.py links each function of the second part alone, for its size in flash.
+// The templates of the core, instantiated as a program for a chip or a board would. The build includes all
+// headers of the core in front of it, so that the object holds the rest too: tests/checks/binary.py and
+// stack.py read it. tests/checks/memory.py links each function of the second part alone, for its size in
+// flash.
 #include <cstdint>
 
 #include <fovea/base/order.hpp>

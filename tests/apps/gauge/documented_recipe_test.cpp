@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <gauge/gauge_command.hpp>
 #include <gauge/recipe_file.hpp>
 #include <make_part/part_scene.hpp>
+#include <support/commands.hpp>
 
 namespace fovea::test {
 namespace {
@@ -35,7 +35,7 @@ TEST(DocumentedRecipe, MeasuresThePlateThatMakePartRendersWithEveryKindOfFeature
     EXPECT_EQ(kinds, 0x7fu);
 
     std::vector<PartResult> parts;
-    ASSERT_EQ(apps::gauge_picture(render(apps::PartScene()), file.recipe, parts), Status::ok);
+    ASSERT_EQ(gauge_parts(render(apps::PartScene()), file.recipe, parts), Status::ok);
     ASSERT_EQ(parts.size(), 1u);
     EXPECT_EQ(parts[0].verdict, Verdict::ok);
     // As the page prints it.

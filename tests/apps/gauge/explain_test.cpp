@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <gauge/explain.hpp>
-#include <gauge/gauge_command.hpp>
+#include <support/commands.hpp>
 #include <support/recipes.hpp>
 #include <support/teaching.hpp>
 
@@ -19,7 +19,7 @@ using apps::Picture;
 
 std::vector<PartResult> gauged(const Picture<Gray8>& picture, const Recipe& recipe) {
     std::vector<PartResult> parts;
-    static_cast<void>(apps::gauge_picture(picture, recipe, parts));
+    static_cast<void>(gauge_parts(picture, recipe, parts));
     return parts;
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <gauge/gauge_command.hpp>
 #include <make_part/part_scene.hpp>
+#include <support/commands.hpp>
 #include <support/json.hpp>
 #include <support/parts.hpp>
 #include <support/plate_scene.hpp>

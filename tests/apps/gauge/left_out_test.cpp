@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <gauge/gauge_command.hpp>
+#include <gauge/left_out.hpp>
+#include <gauge/recipe_file.hpp>
+#include <support/commands.hpp>
 #include <support/json.hpp>
 #include <support/teaching.hpp>
 #include <support/test_io.hpp>

@@ -10,10 +10,10 @@
 
 #include <fovea/simulated/memory_storage.hpp>
 
-#include <gauge/gauge_command.hpp>
 #include <gauge/teach.hpp>
 #include <support/picture.hpp>
 #include <support/render.hpp>
+#include <support/teaching.hpp>
 
 namespace fovea::test {
 namespace {
@@ -109,10 +109,10 @@ TEST(PcaTest, SixBladesAreFoundAndNothingElseWhereADoublePrecisionComputationFin
     const std::filesystem::path path = opencv_doc_folder() / "pca_test1.jpg";
     FOVEA_NEED_PICTURE(path);
     const Picture<Gray8> picture = load(path);
-    const apps::Taught taught = apps::teach({picture}, {"pca_test1.jpg"}, {});
+    const apps::Taught taught = taught_from({picture});
     ASSERT_EQ(taught.problem, "");
     std::vector<PartResult> parts;
-    ASSERT_EQ(apps::gauge_picture(picture, taught.recipe, parts), Status::ok);
+    ASSERT_EQ(gauge_parts(picture, taught.recipe, parts), Status::ok);
     ASSERT_EQ(parts.size(), 6u);
 
     std::vector<DarkRegion> expected;

@@ -14,7 +14,6 @@ namespace fovea::test {
 namespace {
 
 using namespace shapes;
-using apps::find_samples;
 using apps::Picture;
 using apps::Samples;
 using Notes = std::vector<std::string>;
@@ -63,7 +62,7 @@ TEST(Samples, WarnsThatItMayHaveTakenTheHolesOfAPartThatTouchesTheBorder) {
 
 TEST(Samples, SayWhichPictureGaveNone) {
     const Samples samples =
-        find_samples({lying(plate(), 0, 509), lying(disc(20), 0, 510)}, {"good.png", "small.png"}, {});
+        samples_in({lying(plate(), 0, 509), lying(disc(20), 0, 510)}, {"good.png", "small.png"});
     EXPECT_EQ(samples.parts.size(), 1u);
     EXPECT_EQ(samples.problem, "");
     EXPECT_EQ(samples.notes, Notes{"small.png: not a sample: nothing in it is about as large as the part"});
@@ -87,7 +86,7 @@ TEST(Samples, SaysWhyAPictureHasNoPart) {
 }
 
 TEST(Samples, GoesOnWithTheOtherPicturesWhenOneHasNoPart) {
-    const Samples samples = find_samples({flat(200), lying(plate(), 0, 508)}, {"flat.png", "good.png"}, {});
+    const Samples samples = samples_in({flat(200), lying(plate(), 0, 508)}, {"flat.png", "good.png"});
     EXPECT_EQ(samples.problem, "");
     EXPECT_EQ(samples.parts.size(), 1u);
     EXPECT_EQ(samples.notes, Notes{"flat.png: no part found: all pixels are alike"});

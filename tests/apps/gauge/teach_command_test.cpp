@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gauge/teach_command.hpp>
+#include <support/commands.hpp>
 #include <support/teaching.hpp>
 #include <support/test_io.hpp>
 

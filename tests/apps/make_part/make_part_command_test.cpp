@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <make_part/make_part_command.hpp>
+#include <support/commands.hpp>
 #include <support/test_io.hpp>
 
 namespace fovea::test {
