@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <op/all_operators.hpp>
 
-#include <fovea/catalogue/catalogue.hpp>
-
 namespace fovea::apps {
 
-Span<const OperatorFamily> all_operators() { return operator_families; }
+Span<const OperatorFamily> all_operators() {
+    static const OperatorFamily families[] = {
+        {"pixelwise", pixelwise_operators()},
+        {"colour", colour_operators()},
+        {"statistics", statistics_operators()},
+        {"filter", filter_operators()},
+        {"morphology", morphology_operators()},
+        {"warp", warp_operators()},
+        {"segment", adaptive_operators()},
+    };
+    return families;
+}
 
 }  // namespace fovea::apps

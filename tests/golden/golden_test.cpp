@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <golden/vectors.hpp>
+#include <op/all_operators.hpp>
 
 namespace fovea::golden {
 
@@ -67,6 +68,18 @@ INSTANTIATE_TEST_SUITE_P(, GoldenVector, testing::ValuesIn(all_vectors()), [](co
         if (letter == '/') letter = '_';
     return name;
 });
+
+TEST(GoldenVectors, AreOfTheOperatorsThatTheApplicationsHave) {
+    const Span<const OperatorFamily> families = operator_families;
+    const Span<const OperatorFamily> built = apps::all_operators();
+    ASSERT_EQ(built.size(), families.size());
+    for (std::ptrdiff_t i = 0; i < families.size(); ++i) {
+        EXPECT_STREQ(built[i].name, families[i].name);
+        ASSERT_EQ(built[i].operators.size(), families[i].operators.size()) << families[i].name;
+        for (std::ptrdiff_t k = 0; k < families[i].operators.size(); ++k)
+            EXPECT_STREQ(built[i].operators[k].name, families[i].operators[k].name);
+    }
+}
 
 TEST(GoldenTable, HasNoLineWithoutAVector) {
     std::map<std::string, std::string> table = read_table();

@@ -1,31 +1,65 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints the table of scratch in docs/memory.md: bytes that the operators ask of their caller.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <fovea/catalogue/catalogue.hpp>
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>
 #include <fovea/decision/gauge.hpp>
 #include <fovea/measure/edge_probe.hpp>
-#include <fovea/morphology/morphology.hpp>
 #include <fovea/segment/connected_components.hpp>
 
 using namespace fovea;
 
+namespace {
+
+constexpr Size sizes[] = {{160, 120}, {320, 240}, {640, 480}, {1920, 1080}};
+
+std::string cells(const std::function<std::int64_t(Size)>& bytes) {
+    std::string text;
+    for (const Size size : sizes) text += " " + std::to_string(bytes(size)) + " |";
+    return text;
+}
+
+/// A line for all operators of the catalogue that ask for the same with their presets.
+void print_catalogue() {
+    std::vector<std::pair<std::string, std::string>> lines;
+    for (const OperatorFamily& family : operator_families)
+        for (const Operator& op : family.operators) {
+            int presets[max_operator_parameters] = {};
+            for (int i = 0; i < op.parameter_count(); ++i) presets[i] = op.parameters[i].preset;
+            const std::string bytes = cells([&](Size size) { return op.scratch_for(size, presets); });
+            const auto same = std::find_if(lines.begin(), lines.end(),
+                                           [&](const auto& line) { return line.second == bytes; });
+            if (same == lines.end())
+                lines.emplace_back(op.name, bytes);
+            else
+                same->first += std::string(", ") + op.name;
+        }
+    std::printf(
+        "| operator of the catalogue, with its presets | 160x120 | 320x240 | 640x480 | 1920x1080 "
+        "|\n|---|---|---|---|---|\n");
+    for (const auto& [names, bytes] : lines) std::printf("| %s |%s\n", names.c_str(), bytes.c_str());
+}
+
+}  // namespace
+
 int main() {
-    constexpr Size sizes[] = {{160, 120}, {320, 240}, {640, 480}, {1920, 1080}};
     LocateRule opened;
     opened.opening = 3;
     const struct {
         const char* name;
         std::function<std::int64_t(Size)> bytes;
     } operators[] = {
-        {"threshold, to_gray, histogram, moments, contours, lines, labels", [](Size) { return 0; }},
-        {"erode, dilate", [](Size size) { return erode_scratch(size); }},
-        {"opening, closing", [](Size size) { return opening_scratch(size); }},
+        {"histogram, moments, level contours, lines, labels", [](Size) { return 0; }},
         {"connected_components", [](Size size) { return connected_components_scratch(size.width); }},
         {"connected_components, 64 labels",
          [](Size size) { return connected_components_scratch(size.width, 64); }},
@@ -42,7 +76,8 @@ int main() {
         {"encode_png", [](Size size) { return png_writer_scratch(size); }},
         {"decode_pnm, decode_bmp, encode_pnm, encode_bmp", [](Size) { return 0; }},
     };
-    std::printf("| operator |");
+    print_catalogue();
+    std::printf("\n| other operator |");
     for (const Size size : sizes) std::printf(" %dx%d |", size.width, size.height);
     std::printf("\n|---|---|---|---|---|\n");
     for (const auto& one : operators) {
