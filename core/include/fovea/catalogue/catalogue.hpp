@@ -5,6 +5,7 @@
 
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/adaptive.hpp>
+#include <fovea/catalogue/arithmetic.hpp>
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/catalogue/pixelwise.hpp>
@@ -22,9 +23,8 @@ inline namespace FOVEA_ISA {
 
 /// All families, in the order of core/layers.txt.
 inline constexpr OperatorFamily operator_families[] = {
-    {"pixelwise", catalogue::pixelwise},
-    {"statistics", catalogue::statistics},
-    {"morphology", catalogue::morphology},
+    {"pixelwise", catalogue::pixelwise},   {"pixelwise", catalogue::arithmetic},
+    {"statistics", catalogue::statistics}, {"morphology", catalogue::morphology},
     {"segment", catalogue::adaptive},
 };
 
