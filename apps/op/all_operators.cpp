@@ -6,6 +6,7 @@ namespace fovea::apps {
 Span<const OperatorFamily> all_operators() {
     static const OperatorFamily families[] = {
         {"pixelwise", pixelwise_operators()},
+        {"arithmetic", arithmetic_operators()},
         {"colour", colour_operators()},
         {"statistics", statistics_operators()},
         {"filter", filter_operators()},

@@ -13,6 +13,7 @@ namespace fovea::apps {
 Span<const OperatorFamily> all_operators();
 
 Span<const Operator> pixelwise_operators();
+Span<const Operator> arithmetic_operators();
 Span<const Operator> colour_operators();
 Span<const Operator> statistics_operators();
 Span<const Operator> filter_operators();

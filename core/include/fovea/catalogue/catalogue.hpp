@@ -5,6 +5,7 @@
 
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/adaptive.hpp>
+#include <fovea/catalogue/arithmetic.hpp>
 #include <fovea/catalogue/colour.hpp>
 #include <fovea/catalogue/filter.hpp>
 #include <fovea/catalogue/morphology.hpp>
@@ -18,12 +19,18 @@ namespace fovea {
 inline namespace FOVEA_ISA {
 
 /// All families, in the order of core/layers.txt.
+// clang-format off
 inline constexpr OperatorFamily operator_families[] = {
-    {"pixelwise", catalogue::pixelwise},   {"colour", catalogue::colour},
-    {"statistics", catalogue::statistics}, {"filter", catalogue::filter},
-    {"morphology", catalogue::morphology}, {"warp", catalogue::warp},
+    {"pixelwise", catalogue::pixelwise},
+    {"arithmetic", catalogue::arithmetic},
+    {"colour", catalogue::colour},
+    {"statistics", catalogue::statistics},
+    {"filter", catalogue::filter},
+    {"morphology", catalogue::morphology},
+    {"warp", catalogue::warp},
     {"segment", catalogue::adaptive},
 };
+// clang-format on
 
 /// The operator of a name; null if there is none.
 constexpr const Operator* find_operator(const char* name) { return find_operator(operator_families, name); }
