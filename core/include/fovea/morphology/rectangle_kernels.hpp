@@ -282,7 +282,7 @@ void two_steps(ImageView<const Gray8> src, Size element, Span<std::uint8_t> scra
     const int height = src.height();
     const int reach = element.height / 2;
     const int room = between_rows(height);
-    const auto lines_bytes = static_cast<std::ptrdiff_t>(2 * byte_line_scratch(width));
+    const std::ptrdiff_t lines_bytes = 2 * static_cast<std::ptrdiff_t>(byte_line_scratch(width));
     const ImageView<Gray8> rows(scratch.from(lines_bytes).data(), {width, room}, width);
     int top = 0;   // of the frame, where rows begins
     int made = 0;  // rows of the first step

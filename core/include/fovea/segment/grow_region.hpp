@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 
 #include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
@@ -119,7 +120,7 @@ private:
         int last = x;
         while (first > 0 && row.belongs(first - 1)) --first;
         while (last + 1 < size_.width && row.belongs(last + 1)) ++last;
-        std::memset(row.mask + first, 255, static_cast<std::size_t>(last - first + 1));
+        std::memset(row.mask + first, 255, static_cast<std::size_t>(last - first) + 1);
         moments_.add_run(first, last + 1, y);
         if (moments_.area() == last - first + 1 || y < first_.y || (y == first_.y && first < first_.x))
             first_ = {first, y};
