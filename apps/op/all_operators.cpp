@@ -4,6 +4,7 @@
 namespace fovea::apps {
 
 Span<const OperatorFamily> all_operators() {
+    // clang-format off
     static const OperatorFamily families[] = {
         {"pixelwise", pixelwise_operators()},
         {"arithmetic", arithmetic_operators()},
@@ -14,6 +15,7 @@ Span<const OperatorFamily> all_operators() {
         {"warp", warp_operators()},
         {"segment", adaptive_operators()},
     };
+    // clang-format on
     return families;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The catalogue as the applications see it. It holds every operator of the core, so each family is compiled once, in
-// a source file of its own, and several at a time.
+// The catalogue as the applications see it. It holds every operator of the core, so each family is compiled
+// once, in a source file of its own, and several at a time.
 #pragma once
 
 #include <fovea/base/span.hpp>
