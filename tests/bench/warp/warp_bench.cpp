@@ -28,6 +28,25 @@ Peer turn([[maybe_unused]] double degrees, [[maybe_unused]] bool smooth) {
 }
 Peer flipped([[maybe_unused]] int how) { return FOVEA_OPENCV(cv::flip(in[0], out, how)); }
 Peer resized([[maybe_unused]] int how) { return FOVEA_OPENCV(cv::resize(in[0], out, out.size(), 0, 0, how)); }
+Peer transposed() { return FOVEA_OPENCV(cv::transpose(in[0], out)); }
+/// By OpenCV's numbers: 0 clockwise, 2 counterclockwise.
+Peer quarter([[maybe_unused]] int how) { return FOVEA_OPENCV(cv::rotate(in[0], out, how)); }
+/// With the values of the lines below.
+Peer affine() {
+    return FOVEA_OPENCV({
+        const cv::Matx23d matrix(900 / 1024.0, 200 / 1024.0, 2, -100 / 1024.0, 1100 / 1024.0, 2);
+        cv::warpAffine(in[0], out, matrix, out.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+    });
+}
+Peer projective() {
+    return FOVEA_OPENCV({
+        const cv::Matx33d matrix(1, 100 / 1024.0, 2, -50 / 1024.0, 1, 2, 150 / 1048576.0, -120 / 1048576.0,
+                                 1);
+        cv::warpPerspective(in[0], out, matrix, out.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+    });
+}
+Peer smaller() { return FOVEA_OPENCV(cv::pyrDown(in[0], out, out.size(), cv::BORDER_REPLICATE)); }
+Peer larger() { return FOVEA_OPENCV(cv::pyrUp(in[0], out)); }
 [[maybe_unused]] constexpr int nearest_pixel = 0, linear = 1, cubic = 2, area = 3;
 
 const bool lines[] = {
@@ -35,28 +54,18 @@ const bool lines[] = {
     add_operator(1601, "flip_x_rgb", Sizes::vga, {}, flipped(1), "flip_x, colour"),
     add_operator(1602, "flip_y", Sizes::vga, {}, flipped(0)),
     add_operator(1603, "rotate_180", Sizes::vga, {}, flipped(-1)),
-    add_operator(1604, "transpose", Sizes::vga_and_full_hd, {}, FOVEA_OPENCV(cv::transpose(in[0], out))),
-    add_operator(1605, "transpose_rgb", Sizes::vga, {}, FOVEA_OPENCV(cv::transpose(in[0], out)),
-                 "transpose, colour"),
-    add_operator(1606, "rotate_90_clockwise", Sizes::vga, {},
-                 FOVEA_OPENCV(cv::rotate(in[0], out, cv::ROTATE_90_CLOCKWISE))),
-    add_operator(1607, "rotate_90_counterclockwise", Sizes::vga, {},
-                 FOVEA_OPENCV(cv::rotate(in[0], out, cv::ROTATE_90_COUNTERCLOCKWISE))),
+    add_operator(1604, "transpose", Sizes::vga_and_full_hd, {}, transposed()),
+    add_operator(1605, "transpose_rgb", Sizes::vga, {}, transposed(), "transpose, colour"),
+    add_operator(1606, "rotate_90_clockwise", Sizes::vga, {}, quarter(0)),
+    add_operator(1607, "rotate_90_counterclockwise", Sizes::vga, {}, quarter(2)),
     add_operator(1610, "rotate", Sizes::vga_and_full_hd, {30, bilinear, constant}, turn(30, true),
                  "rotate by 30 degrees"),
     add_operator(1611, "rotate", Sizes::vga, {30, 0, constant}, turn(30, false), "rotate, nearest pixel"),
     add_operator(1612, "rotate_rgb", Sizes::vga, {30, bilinear, constant}, turn(30, true), "rotate, colour"),
     add_operator(1613, "warp_affine", Sizes::vga_and_full_hd,
-                 {900, 200, -100, 1100, 2, 2, bilinear, constant},
-                 FOVEA_OPENCV(cv::warpAffine(
-                     in[0], out, cv::Matx23d(900 / 1024.0, 200 / 1024.0, 2, -100 / 1024.0, 1100 / 1024.0, 2),
-                     out.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP))),
-    add_operator(
-        1614, "warp_homography", Sizes::vga_and_full_hd, {150, -120, 100, -50, 2, 2, bilinear, constant},
-        FOVEA_OPENCV(cv::warpPerspective(
-            in[0], out,
-            cv::Matx33d(1, 100 / 1024.0, 2, -50 / 1024.0, 1, 2, 150 / 1048576.0, -120 / 1048576.0, 1),
-            out.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP))),
+                 {900, 200, -100, 1100, 2, 2, bilinear, constant}, affine()),
+    add_operator(1614, "warp_homography", Sizes::vga_and_full_hd,
+                 {150, -120, 100, -50, 2, 2, bilinear, constant}, projective()),
     add_operator(1630, "resize_nearest", Sizes::vga, {467, 350}, resized(nearest_pixel),
                  "resize_nearest to 467x350"),
     add_operator(1631, "resize_bilinear", Sizes::vga, {467, 350}, resized(linear),
@@ -67,9 +76,8 @@ const bool lines[] = {
     add_operator(1634, "resize_area", Sizes::vga, {320, 240}, resized(area), "resize_area to 320x240"),
     add_operator(1635, "resize_area", Sizes::vga, {160, 120}, resized(area), "resize_area to 160x120"),
     add_operator(1636, "resize_area", Sizes::vga, {256, 192}, resized(area), "resize_area to 256x192"),
-    add_operator(1637, "pyramid_down", Sizes::vga_and_full_hd, {},
-                 FOVEA_OPENCV(cv::pyrDown(in[0], out, out.size(), cv::BORDER_REPLICATE))),
-    add_operator(1638, "pyramid_up", Sizes::vga, {}, FOVEA_OPENCV(cv::pyrUp(in[0], out))),
+    add_operator(1637, "pyramid_down", Sizes::vga_and_full_hd, {}, smaller()),
+    add_operator(1638, "pyramid_up", Sizes::vga, {}, larger()),
 };
 
 /// A map that takes the barrel distortion out of an image.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include <fovea/base/random.hpp>
 #include <fovea/warp/flip.hpp>
 #include <support/guarded_image.hpp>
@@ -11,7 +13,13 @@ namespace {
 template <class Pixel>
 class Flip : public testing::Test {};
 using Pixels = testing::Types<Gray8, Rgb888, Gray16>;
-TYPED_TEST_SUITE(Flip, Pixels);
+struct PixelNames {
+    template <class Pixel>
+    static std::string GetName(int number) {
+        return std::string("OfPixel") + std::to_string(number);
+    }
+};
+TYPED_TEST_SUITE(Flip, Pixels, PixelNames);
 
 TEST(FlipByHand, TurnsTwoByThreePixels) {
     // a b      as numbers 1 2

@@ -67,6 +67,12 @@ inline constexpr int half_lanes = lanes / 2;
 #if FOVEA_BYTES == 32
     return {__builtin_shufflevector(bytes.raw, bytes.raw, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19,
                                     18, 17, 16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)};
+#elif FOVEA_BYTES == 16 && defined(__SSE2__) && !defined(__SSSE3__)
+    // Bytes within words, words within halves, halves.
+    const auto words = bits_as<RawWords>(bytes.raw);
+    __m128i turned = bits_as<__m128i>((words << 8) | (words >> 8));
+    turned = _mm_shufflehi_epi16(_mm_shufflelo_epi16(turned, 0x1b), 0x1b);
+    return {bits_as<RawBytes>(_mm_shuffle_epi32(turned, 0x4e))};
 #elif FOVEA_BYTES == 16
     return {
         __builtin_shufflevector(bytes.raw, bytes.raw, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)};

@@ -92,9 +92,9 @@ void transpose_frame(ImageView<const Pixel> src, ImageView<Pixel> dst) {
         // The rest, and other pixels: so few columns at a time that their rows stay in the cache.
         for (; left < src.width(); left += side) {
             const int columns = minimum(side, src.width() - left);
-            for (int i = 0; i < rows; ++i) {
-                const Pixel* from = src.row(top + i) + left;
-                for (int k = 0; k < columns; ++k) dst.row(left + k)[top + i] = from[k];
+            for (int k = 0; k < columns; ++k) {
+                Pixel* to = dst.row(left + k) + top;
+                for (int i = 0; i < rows; ++i) to[i] = src.row(top + i)[left + k];
             }
         }
     }

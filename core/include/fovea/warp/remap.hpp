@@ -70,7 +70,7 @@ Status remap_offsets(NonDeduced<ImageView<const Pixel>> src, ImageView<const Map
 /// Rounding  each place once, to 1/256 px, ties up, from an exact mean of four points. A map whose second
 ///           differences over 16 px are e is met to e / 4
 /// Border    as sampling says; where one of the four points is no_map_point, its level
-/// Errors    empty_image, size_mismatch, image_too_large; bad_argument never
+/// Errors    empty_image, size_mismatch, image_too_large
 /// Others    as remap()
 template <class Pixel>
 Status remap_grid(NonDeduced<ImageView<const Pixel>> src, ImageView<const MapPoint> grid,

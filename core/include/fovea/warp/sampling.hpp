@@ -75,7 +75,7 @@ private:
     Interpolation interpolation_;
 };
 
-/// The same by the pixel, channel by channel.
+/// The same by the pixel, three channels at a time.
 template <>
 class Sampler<Rgb888> {
 public:
@@ -106,15 +106,21 @@ private:
         const Rgb888* above = src_.row(y >> 8) + (x >> 8);
         const Rgb888* below = down == 0 ? above : src_.row((y >> 8) + 1) + (x >> 8);
         const int next = right == 0 ? 0 : 1;
-        const auto blend = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-            const std::uint32_t upper = a * (256 - right) + b * right;
-            const std::uint32_t lower = c * (256 - right) + d * right;
-            return static_cast<std::uint8_t>((upper * (256 - down) + lower * down + 32768) >> 16);
-        };
-        return {blend(above->red, above[next].red, below->red, below[next].red),
-                blend(above->green, above[next].green, below->green, below[next].green),
-                blend(above->blue, above[next].blue, below->blue, below[next].blue)};
+        const std::uint64_t upper = spread(above[0]) * (256 - right) + spread(above[next]) * right;
+        const std::uint64_t lower = spread(below[0]) * (256 - right) + spread(below[next]) * right;
+        // The sums of 24 bits as their high bytes and their low ones; no lane of 16 bits passes 65408.
+        const std::uint64_t high = (upper >> 8 & bytes) * (256 - down) + (lower >> 8 & bytes) * down;
+        const std::uint64_t low = (upper & bytes) * (256 - down) + (lower & bytes) * down;
+        const std::uint64_t sum = high + 0x008000800080u + (low >> 8 & bytes);
+        return {static_cast<std::uint8_t>(sum >> 8 & 255), static_cast<std::uint8_t>(sum >> 24 & 255),
+                static_cast<std::uint8_t>(sum >> 40 & 255)};
     }
+    /// The channels in lanes of 16 bits.
+    static std::uint64_t spread(Rgb888 pixel) {
+        return static_cast<std::uint64_t>(pixel.blue) << 32 |
+               (static_cast<std::uint32_t>(pixel.green) << 16 | pixel.red);
+    }
+    static constexpr std::uint64_t bytes = 0x00ff00ff00ffu;
 
     ImageView<const Rgb888> src_;
     simd::CellSource inside_;
