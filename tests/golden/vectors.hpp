@@ -16,6 +16,7 @@
 #include <golden/decision_vectors.hpp>
 #include <golden/digest.hpp>
 #include <golden/draw_vectors.hpp>
+#include <golden/feature_vectors.hpp>
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/operator_vectors.hpp>
@@ -58,6 +59,8 @@ inline constexpr Vector vectors[] = {
     {"segment/fine_moments", segment_fine_moments},
     {"segment/level_contour", segment_level_contour},
     {"segment/runs", segment_runs},
+    {"feature/canny_points", feature_canny_points},
+    {"feature/hough_lines", feature_hough_lines},
     {"measure/edge_probe", measure_edge_probe},
     {"measure/edge_straightness", measure_edge_straightness},
     {"measure/fit_circle", measure_fit_circle},

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <fovea/base/span.hpp>
+#include <fovea/catalogue/feature.hpp>
 #include <fovea/catalogue/filter.hpp>
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
@@ -24,6 +25,7 @@ inline constexpr OperatorFamily operator_families[] = {
     {"pixelwise", catalogue::pixelwise},
     {"filter", catalogue::filter},
     {"morphology", catalogue::morphology},
+    {"feature", catalogue::feature},
 };
 
 /// The operator of a name; null if there is none.
