@@ -14,6 +14,7 @@ Span<const OperatorFamily> all_operators() {
         {"morphology", morphology_operators()},
         {"warp", warp_operators()},
         {"segment", adaptive_operators()},
+        {"feature", feature_operators()},
     };
     // clang-format on
     return families;

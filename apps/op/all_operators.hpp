@@ -20,5 +20,6 @@ Span<const Operator> filter_operators();
 Span<const Operator> morphology_operators();
 Span<const Operator> warp_operators();
 Span<const Operator> adaptive_operators();
+Span<const Operator> feature_operators();
 
 }  // namespace fovea::apps

@@ -17,6 +17,7 @@
 #include <golden/decision_vectors.hpp>
 #include <golden/digest.hpp>
 #include <golden/draw_vectors.hpp>
+#include <golden/feature_vectors.hpp>
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
@@ -87,6 +88,8 @@ inline constexpr Vector vectors[] = {
     {"segment/level_contour", segment_level_contour},
     {"segment/polygons", segment_polygons},
     {"segment/runs", segment_runs},
+    {"feature/canny_points", feature_canny_points},
+    {"feature/hough_lines", feature_hough_lines},
     {"measure/edge_probe", measure_edge_probe},
     {"measure/edge_straightness", measure_edge_straightness},
     {"measure/fit_circle", measure_fit_circle},

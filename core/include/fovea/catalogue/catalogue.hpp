@@ -7,6 +7,7 @@
 #include <fovea/catalogue/adaptive.hpp>
 #include <fovea/catalogue/arithmetic.hpp>
 #include <fovea/catalogue/colour.hpp>
+#include <fovea/catalogue/feature.hpp>
 #include <fovea/catalogue/filter.hpp>
 #include <fovea/catalogue/morphology.hpp>
 #include <fovea/catalogue/operator.hpp>
@@ -29,6 +30,7 @@ inline constexpr OperatorFamily operator_families[] = {
     {"morphology", catalogue::morphology},
     {"warp", catalogue::warp},
     {"segment", catalogue::adaptive},
+    {"feature", catalogue::feature},
 };
 // clang-format on
 
