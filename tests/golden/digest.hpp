@@ -56,6 +56,7 @@ inline void put(Digest& digest, Int128 number) { digest.add(number.low_word(), (
 
 inline void put(Digest& digest, Size size) { digest.add(size.width, size.height); }
 inline void put(Digest& digest, Point point) { digest.add(point.x, point.y); }
+inline void put(Digest& digest, SubPixelPoint point) { digest.add(point.x, point.y); }
 inline void put(Digest& digest, FinePoint point) { digest.add(point.x, point.y); }
 inline void put(Digest& digest, Rectangle area) { digest.add(area.x, area.y, area.width, area.height); }
 

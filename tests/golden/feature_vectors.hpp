@@ -17,7 +17,6 @@
 
 namespace fovea::golden {
 
-inline void put(Digest& digest, SubPixelPoint point) { digest.add(point.x, point.y); }
 inline void put(Digest& digest, const EdgePoint& p) { digest.add(p.place, p.gradient, p.strength, p.pixel); }
 inline void put(Digest& digest, const PolarLine& line) { digest.add(line.theta, line.distance, line.votes); }
 inline void put(Digest& digest, const LineSegment& s) { digest.add(s.from, s.to, s.pixels, s.line); }

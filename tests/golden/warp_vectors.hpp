@@ -20,7 +20,6 @@ inline void put(Digest& digest, const AffineTransform& t) { digest.add(t.xx, t.x
 inline void put(Digest& digest, const Homography& h) {
     digest.add(h.xx, h.xy, h.x0, h.yx, h.yy, h.y0, h.wx, h.wy, h.w0);
 }
-inline void put(Digest& digest, const MapPoint& point) { digest.add(point.x, point.y); }
 
 /// A place in a square of that many px.
 inline FinePoint warp_place(Random& random, int side) {
