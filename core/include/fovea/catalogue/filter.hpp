@@ -27,8 +27,8 @@ constexpr Border border_of(int value) {
 }
 
 /// The entry of a filter whose one parameter is the border.
-template <class Pixel, Status (*filter)(ImageView<const Gray8>, Border, Span<std::uint8_t>, ImageView<Pixel>),
-          std::int64_t (*needs)(Size)>
+template <class Pixel, Status (*Filter)(ImageView<const Gray8>, Border, Span<std::uint8_t>, ImageView<Pixel>),
+          std::int64_t (*Needs)(Size)>
 constexpr Operator filter_entry(const char* name, const char* summary, const char* book, PixelKind output) {
     return {name,
             summary,
@@ -37,9 +37,9 @@ constexpr Operator filter_entry(const char* name, const char* summary, const cha
             output,
             {border_choice},
             nullptr,
-            [](Size size, const int*) { return needs(size); },
+            [](Size size, const int*) { return Needs(size); },
             [](const OperatorCall& c) {
-                return filter(c.input<Gray8>(), border_of(c.values[0]), c.scratch, c.out<Pixel>());
+                return Filter(c.input<Gray8>(), border_of(c.values[0]), c.scratch, c.out<Pixel>());
             }};
 }
 

@@ -75,7 +75,8 @@ constexpr Result<GaussianTaps> gaussian_taps(SubPixel sigma) {
     std::uint64_t sum = 0;
     for (int i = 0; i <= taps.reach; ++i) {
         // i^2 / (2 sigma^2) in 1/2^32; i^2 is below 2^10, and sigma in 1/256.
-        const auto square = static_cast<std::uint64_t>(i * i);
+        const auto distance = static_cast<std::uint64_t>(i);
+        const std::uint64_t square = distance * distance;
         values[i] = exponential_of_minus((square << 47) / (raw * raw));
         sum += i == 0 ? values[i] : 2 * values[i];
     }
