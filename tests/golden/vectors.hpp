@@ -60,6 +60,7 @@ inline constexpr Vector vectors[] = {
     {"segment/level_contour", segment_level_contour},
     {"segment/runs", segment_runs},
     {"feature/canny_points", feature_canny_points},
+    {"feature/hough_circles", feature_hough_circles},
     {"feature/hough_lines", feature_hough_lines},
     {"measure/edge_probe", measure_edge_probe},
     {"measure/edge_straightness", measure_edge_straightness},
