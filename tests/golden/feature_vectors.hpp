@@ -10,6 +10,7 @@
 #include <fovea/base/arena.hpp>
 #include <fovea/feature/canny.hpp>
 #include <fovea/feature/canny_points.hpp>
+#include <fovea/feature/hough_circles.hpp>
 #include <fovea/feature/hough_lines.hpp>
 #include <fovea/feature/line_segments.hpp>
 #include <golden/digest.hpp>
@@ -19,6 +20,7 @@ namespace fovea::golden {
 
 inline void put(Digest& digest, const EdgePoint& p) { digest.add(p.place, p.gradient, p.strength, p.pixel); }
 inline void put(Digest& digest, const PolarLine& line) { digest.add(line.theta, line.distance, line.votes); }
+inline void put(Digest& digest, const HoughCircle& c) { digest.add(c.centre, c.radius, c.votes, c.share); }
 inline void put(Digest& digest, const LineSegment& s) { digest.add(s.from, s.to, s.pixels, s.line); }
 
 /// A list in the scratch of the workspace.
@@ -70,6 +72,28 @@ inline void feature_hough_lines(Workspace& work, Digest& digest) {
     for (const Size size : {Size{0, 3}, Size{32767, 32767}, Size{111, 75}})
         digest.add(hough_lines_directed(points.view().span(), size, options, arena.rest(), lines.view()),
                    lines.view());
+}
+
+inline void feature_hough_circles(Workspace& work, Digest& digest) {
+    const ImageView<Gray8> src = part_picture(work, 0);
+    const ImageView<Gray8> edges = part_edges(work, src);
+    Arena arena(work.scratch_span());
+    ArenaList<EdgePoint> points(arena, 600);
+    ArenaList<HoughCircle> circles(arena, 8);
+    digest.add(canny_points(src, edges, Border::replicate, points.view()));
+    HoughCircleOptions options;
+    options.min_radius = 3;
+    options.max_radius = 30;
+    options.min_votes = 12;
+    options.cell = 1;
+    for (const CircleTone tone : {CircleTone::any, CircleTone::bright, CircleTone::dark}) {
+        options.tone = tone;
+        const std::int64_t scratch = hough_circles_scratch(src.size(), points.count, options);
+        digest.add(scratch > 0, scratch <= arena.rest().size());
+        digest.add(hough_circles(points.view().span(), src.size(), options, arena.rest(), circles.view()),
+                   circles.view());
+        options.cell = 3;
+    }
 }
 
 }  // namespace fovea::golden

@@ -89,6 +89,7 @@ inline constexpr Vector vectors[] = {
     {"segment/polygons", segment_polygons},
     {"segment/runs", segment_runs},
     {"feature/canny_points", feature_canny_points},
+    {"feature/hough_circles", feature_hough_circles},
     {"feature/hough_lines", feature_hough_lines},
     {"measure/edge_probe", measure_edge_probe},
     {"measure/edge_straightness", measure_edge_straightness},

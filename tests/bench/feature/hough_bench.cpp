@@ -3,6 +3,7 @@
 
 #include <fovea/feature/canny.hpp>
 #include <fovea/feature/canny_points.hpp>
+#include <fovea/feature/hough_circles.hpp>
 #include <fovea/feature/hough_lines.hpp>
 #include <fovea/feature/line_segments.hpp>
 
@@ -105,6 +106,30 @@ const bool segments_added = add(2012, "line segments", Sizes::vga, [](Row& row) 
 #if defined(FOVEA_HAVE_OPENCV)
     row.peer("OpenCV", [a = mat(edges), lines = std::vector<cv::Vec4i>()]() mutable {
         cv::HoughLinesP(a, lines, 1, CV_PI / 180, 60, 20, 2);
+    });
+#endif
+});
+
+/// From the picture to the circles, as OpenCV's function does it.
+const bool circles_added = add(2020, "Hough circles of 10..100 px, with Canny", Sizes::vga, [](Row& row) {
+    auto& src = row.keep(part(row.size()));
+    auto& edges = row.keep(Picture<Gray8>(row.size()));
+    auto& found = row.keep(Found());
+    auto& circles = row.keep(std::vector<HoughCircle>(100));
+    auto& count = row.keep(0);
+    HoughCircleOptions options;
+    options.min_share = Ratio::from_ratio(1, 2);
+    const auto room = static_cast<std::int64_t>(found.points.size());
+    found.scratch = bytes(hough_circles_scratch(row.size(), room, options) + canny_scratch(row.size()));
+    row.ours([&, options, size = row.size()] {
+        consume(canny(src.view(), 75, 150, Border::replicate, span_of(found.scratch), edges.view()));
+        consume(canny_points(src.view(), edges.view(), Border::replicate, found.point_list()));
+        consume(hough_circles(found.point_span(), size, options, span_of(found.scratch),
+                              Found::list(circles, count)));
+    });
+#if defined(FOVEA_HAVE_OPENCV)
+    row.peer("OpenCV", [a = mat(src), found = std::vector<cv::Vec3f>()]() mutable {
+        cv::HoughCircles(a, found, cv::HOUGH_GRADIENT, 2, 10, 150, 60, 10, 100);
     });
 #endif
 });

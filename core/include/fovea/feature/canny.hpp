@@ -67,8 +67,7 @@ public:
 
     CannyRows(Border border, Span<std::uint8_t> scratch, int width) : border_(border), width_(width) {
         std::memset(scratch.data(), 0, static_cast<std::size_t>(CannyRows::scratch(width)));
-        FilterLines<CannyLines> lines(scratch.first(static_cast<std::ptrdiff_t>(CannyRows::scratch(width))),
-                                      width);
+        const FilterLines<CannyLines> lines(scratch, width);
         slopes_[0] = {lines.words<0>(), lines.words<1>()};
         slopes_[1] = {lines.words<2>(), lines.words<3>()};
         strength_[0] = lines.words<4>();
