@@ -117,11 +117,13 @@ TEST(Thin, LeavesPixelsLinesAndSpirals) {
     EXPECT_GT(count(thinned(spiral(61), ThinningRule::guo_hall)), 500);
 }
 
-TEST(Thin, RefusesLessThanOnePass) {
+TEST(Thin, RefusesPassesOutOfRange) {
     GuardedImage<Gray8> src({4, 4}), dst({4, 4});
     src.fill(Gray8{1});
     std::uint8_t scratch[16];
-    EXPECT_EQ(thin(src.view(), ThinningRule::guo_hall, 0, scratch, dst.view()), Status::bad_argument);
+    for (const int passes : {0, -5, most_thinning_passes + 1})
+        EXPECT_EQ(thin(src.view(), ThinningRule::guo_hall, passes, scratch, dst.view()),
+                  Status::bad_argument);
 }
 
 }  // namespace

@@ -186,7 +186,8 @@ inline constexpr Operator morphology[] = {
      {PixelKind::gray8},
      PixelKind::gray8,
      {{"rule", 0, 1, 0, 1, "which pixels go", "zhang_suen|guo_hall"},
-      {"passes", 1, 1000, 1000, 1, "at most; a region is one pixel thinner all around after each"}},
+      {"passes", 1, most_thinning_passes, most_thinning_passes, 1,
+       "at most; a region is one pixel thinner all around after each"}},
      nullptr,
      [](Size size, const int*) { return thin_scratch(size); },
      [](const OperatorCall& c) {

@@ -23,8 +23,8 @@ enum class ThinningRule : std::uint8_t {
     guo_hall,    ///< thinner: one pixel wherever the connection allows
 };
 
-/// Passes that are enough for any image: every pass but the last takes a pixel off.
-inline constexpr int most_thinning_passes = 1 << 30;
+/// The most passes: half the longest side of an image, as a region loses a pixel on either side in each.
+inline constexpr int most_thinning_passes = max_image_side / 2 + 1;
 
 /// Scratch bytes that thin() needs: two rows with a pixel on either side.
 constexpr std::int64_t thin_scratch(Size size) { return 2 * (std::int64_t{size.width} + 2); }
@@ -35,15 +35,15 @@ constexpr std::int64_t thin_scratch(Size size) { return 2 * (std::int64_t{size.w
 /// the result does not depend on the order of the pixels. The first half takes from the lower right, the
 /// second from the upper left, with zhang_suen; with guo_hall from above and right first.
 ///
-/// Shapes   src and dst equal, 1x1 or larger; passes from 1 on: a region is one pixel thinner all around
-/// after
+/// Shapes   src and dst equal, 1x1 or larger; passes 1 to most_thinning_passes: a region is one pixel thinner
+/// all around after
 ///          each. Zero is ground, all else belongs
 /// Units    255 where something is left, 0 elsewhere
 /// Border   beyond the image is ground
 /// Overlap  dst may be src
 /// Scratch  thin_scratch(src.size()) bytes, undefined afterwards
 /// Cost     passes times the image, as many as the thickest region is wide by half
-/// Errors   empty_image, size_mismatch, bad_argument for less than one pass, scratch_too_small
+/// Errors   empty_image, size_mismatch, bad_argument for passes out of range, scratch_too_small
 /// Source   Zhang and Suen, "A fast parallel algorithm for thinning digital patterns", 1984; Guo and Hall,
 ///          "Parallel thinning with two-subiteration algorithms", 1989, first of the two
 inline Status thin(ImageView<const Gray8> src, ThinningRule rule, int passes, Span<std::uint8_t> scratch,
@@ -154,7 +154,7 @@ inline Status thin(ImageView<const Gray8> src, ThinningRule rule, int passes, Sp
                    ImageView<Gray8> dst) {
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
-    if (passes < 1) return Status::bad_argument;
+    if (passes < 1 || passes > most_thinning_passes) return Status::bad_argument;
     if (scratch.size() < thin_scratch(src.size())) return Status::scratch_too_small;
     for (int y = 0; y < src.height(); ++y)
         for (int x = 0; x < src.width(); ++x) dst(x, y) = src(x, y) != 0 ? 255 : 0;
