@@ -53,7 +53,6 @@ inline constexpr Vector vectors[] = {
     {"image/views", image_views},
     {"stream/filters", stream_filters},
     {"simd/interleave", simd_interleave},
-    {"image/row_kernel", image_row_kernel},
     {"pixelwise/colour_class", pixelwise_colour_class},
     {"pixelwise/colour_model", pixelwise_colour_model},
     {"pixelwise/frames", pixelwise_frames},
