@@ -4,6 +4,7 @@
 // other.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -76,7 +77,14 @@ inline const Operator* operator_meant(const std::string& word, std::string& prob
             names.push_back(op.name);
             if (!word.empty() && names.back().compare(0, word.size(), word) == 0) begun.push_back(&op);
         }
-    if (begun.size() == 1) return begun[0];
+    // One alone, or one that all the others begin with: opening, not opening_shaped.
+    for (const Operator* op : begun) {
+        const std::string name = op->name;
+        if (std::all_of(begun.begin(), begun.end(), [&](const Operator* other) {
+                return std::string(other->name).compare(0, name.size(), name) == 0;
+            }))
+            return op;
+    }
     if (begun.size() > 1) {
         std::vector<std::string> some;
         for (std::size_t i = 0; i < begun.size() && i < 4; ++i) some.push_back(begun[i]->name);
