@@ -24,7 +24,7 @@ struct Png {
     static constexpr int frame_bytes = 12;  ///< of a chunk: its length, name and checksum
 
     enum Colour : std::uint8_t { gray = 0, rgb = 2, indexed = 3, gray_alpha = 4, rgb_alpha = 6 };
-    enum Filter : std::uint8_t { none, sub, up, average, paeth };
+    enum Filter : std::uint8_t { none, sub, up, mean, paeth };  ///< the standard says average
     static constexpr int filters = 5;
 };
 

@@ -258,7 +258,7 @@ inline Status unfilter_png_row(std::uint8_t filter, std::ptrdiff_t step, const s
             for (std::ptrdiff_t i = 0; i < bytes; ++i)
                 row[i] = static_cast<std::uint8_t>((row[i] + above[i]) & 0xff);
             return Status::ok;
-        case Png::average: run([](int left, int up, int) { return (left + up) / 2; }); return Status::ok;
+        case Png::mean: run([](int left, int up, int) { return (left + up) / 2; }); return Status::ok;
         case Png::paeth: run(paeth_predictor); return Status::ok;
         default: return Status::malformed;
     }

@@ -66,7 +66,7 @@ void with_png_filter(int filter, Use use) {
     switch (filter) {
         case Png::sub: return use([](int here, int left, int, int) { return here - left; });
         case Png::up: return use([](int here, int, int above, int) { return here - above; });
-        case Png::average:
+        case Png::mean:
             return use([](int here, int left, int above, int) { return here - (left + above) / 2; });
         case Png::paeth:
             return use([](int here, int left, int above, int above_left) {
