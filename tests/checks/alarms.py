@@ -113,7 +113,7 @@ def layout(folder):
 @alarm
 def tidy(folder):
     faults = [("good names", "namespace fovea { class Box { int size_ = 0; public: int size() const { return size_; } }; }", None),
-              ("a type in lower case", "struct box {};", "invalid case style for struct 'box'"),
+              ("a type in lower case", "struct crate {};", "invalid case style for struct 'crate'"),
               ("a function in camel case", "void boxFilter();", "invalid case style for function"),
               ("a constant with k", "inline constexpr int kSize = 3;", "invalid case style for"),
               ("a private member without _", "class Box { int size = 0; };", "invalid case style for private member"),
@@ -131,11 +131,11 @@ def tidy(folder):
 
     for number, (what, text, words) in enumerate(faults):
         yield what, trial(number, {BASE: HEAD + text + "\n"}), words
-    fault = "struct box {};\n"
+    fault = "struct crate {};\n"
     for number, path in enumerate(["hal/include/fovea/hal/h.hpp", "ports/linux/include/fovea/linux/p.hpp",
                                    "apps/fovea/a.hpp"], 20):
-        yield f"a fault in {path}", trial(number, {path: HEAD + fault}), "invalid case style for struct 'box'"
-    yield "a fault in a program", trial(30, {"apps/fovea/main.cpp": SPDX + fault}), "invalid case style for struct 'box'"
+        yield f"a fault in {path}", trial(number, {path: HEAD + fault}), "invalid case style for struct 'crate'"
+    yield "a fault in a program", trial(30, {"apps/fovea/main.cpp": SPDX + fault}), "invalid case style for struct 'crate'"
     yield "no files", trial(40, {"README.md": ""}), "no files"
 
 
