@@ -12,6 +12,7 @@
 #include <fovea/base/random.hpp>
 #include <fovea/filter/box.hpp>
 #include <fovea/filter/gaussian.hpp>
+#include <fovea/filter/gaussian_sigma.hpp>
 #include <fovea/filter/laplacian.hpp>
 #include <fovea/filter/median.hpp>
 #include <fovea/filter/sobel.hpp>
@@ -172,6 +173,23 @@ TEST(Stream, TurnsPackedColourIntoEdgesInOnePass) {
     EXPECT_TRUE(equal(out.view(), expected.view()));
 }
 
+TEST(Stream, BeginsWithEveryFormOfColourAsItsFunctionDoes) {
+    const Size size{45, 7};
+    Random random(6);
+    Bytes memory = bytes_of(1 << 14);
+    const auto expect = [&](auto stage, auto src) {
+        src.fill(random);
+        GuardedImage<Gray8> expected(size), out(size);
+        ASSERT_EQ(to_gray(std::as_const(src).view(), expected.view()), Status::ok);
+        auto program = stream(stage, into(out.view()));
+        ASSERT_EQ(program.run(std::as_const(src).view(), Border::replicate, span_of(memory)), Status::ok);
+        EXPECT_TRUE(equal(out.view(), expected.view()));
+    };
+    expect(stages::gray_from_rgb, GuardedImage<Rgb888>(size));
+    expect(stages::gray_from_yuyv, GuardedImage<Yuyv>(size));
+    expect(stages::gray_from_uyvy, GuardedImage<Uyvy>(size));
+}
+
 TEST(Stream, EndsInPixelsOfAnotherKind) {
     const Size size{40, 9};
     Random random(5);
@@ -258,6 +276,35 @@ TEST(Stream, SaysWhatIsWrong) {
     EXPECT_EQ(refusing.start({101, 1}, Border::replicate, span_of(large)), Status::image_too_large);
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 16; ++x) EXPECT_EQ(out(x, y), 77);
+}
+
+/// Whatever the stages before it do, it may be reached only by valid ones.
+template <class Stage>
+void expect_refused(const Stage& stage) {
+    GuardedImage<Gray8> src({16, 4}), out({16, 4});
+    src.fill(Gray8{1});
+    out.fill(Gray8{77});
+    auto program = stream(stages::gaussian_5x5, stage, stages::median_3x3, into(out.view()));
+    Bytes memory = bytes_of(1 << 16);
+    EXPECT_EQ(program.run(src.view(), Border::replicate, span_of(memory)), Status::bad_argument);
+    EXPECT_EQ(program.start({16, 4}, Border::zero, span_of(memory)), Status::bad_argument);
+    EXPECT_EQ(memory, bytes_of(1 << 16));
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 16; ++x) EXPECT_EQ(out(x, y), 77);
+}
+
+TEST(Stream, RefusesAStageWhoseOperatorWouldRefuseItsParameters) {
+    for (const Size element :
+         {Size{2, 3}, Size{3, 2}, Size{65, 3}, Size{3, 65}, Size{0, 0}, Size{3, -3}, Size{-3, 3}}) {
+        expect_refused(stages::box{element});
+        expect_refused(stages::erode{element});
+        expect_refused(stages::dilate{element});
+    }
+    for (const int reach : {-1, 32, 1 << 30}) {
+        GaussianTaps taps;
+        taps.reach = reach;
+        expect_refused(stages::gaussian{taps});
+    }
 }
 
 TEST(Stream, KnowsItsScratchWhenItIsCompiled) {

@@ -98,6 +98,11 @@ struct Box5x5 {
     }
 };
 
+constexpr bool is_box_element(Size element) {
+    return element.width % 2 == 1 && element.height % 2 == 1 && !element.empty() &&
+           element.width <= max_window_rows && element.height <= max_window_rows;
+}
+
 /// The row kernel of box(): columns are summed down the window, then neighbours across.
 class BoxRow {
 public:
@@ -225,9 +230,7 @@ inline Status box(ImageView<const Gray8> src, Size element, Border border, Span<
                   ImageView<Gray8> dst) {
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
-    const bool odd = element.width % 2 == 1 && element.height % 2 == 1;
-    if (!odd || element.empty() || element.width > max_window_rows || element.height > max_window_rows)
-        return Status::bad_argument;
+    if (!kernels::is_box_element(element)) return Status::bad_argument;
     if (scratch.size() < box_scratch(src.size())) return Status::scratch_too_small;
     std::memset(scratch.data(), 0, static_cast<std::size_t>(src.width()));
     kernels::BoxRow kernel(element, border, scratch.from(src.width()), src.width());
@@ -247,6 +250,7 @@ struct box {
     using Output = Gray8;
     Size element;
 
+    constexpr bool valid() const { return kernels::is_box_element(element); }
     constexpr int rows() const { return element.height; }
     static constexpr std::int64_t scratch(int width) { return Kernel::scratch(width); }
     Kernel kernel(Border border, Span<std::uint8_t> bytes, int width) const {

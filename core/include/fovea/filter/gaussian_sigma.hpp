@@ -182,6 +182,7 @@ struct gaussian {
     using Output = Gray8;
     GaussianTaps taps;
 
+    constexpr bool valid() const { return taps.reach >= 0 && taps.reach < max_reach; }
     constexpr int rows() const { return 2 * taps.reach + 1; }
     static constexpr std::int64_t scratch(int width) { return Kernel::scratch(width); }
     Kernel kernel(Border border, Span<std::uint8_t> bytes, int width) const {

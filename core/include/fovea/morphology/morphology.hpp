@@ -63,13 +63,16 @@ inline Status closing(ImageView<const Gray8> src, Size element, Span<std::uint8_
 
 namespace kernels {
 
+constexpr bool is_rectangle(Size element) {
+    return element.width % 2 == 1 && element.height % 2 == 1 && !element.empty() &&
+           element.width <= max_element_side && element.height <= max_element_side;
+}
+
 inline Status check_morphology(ImageView<const Gray8> src, Size element, std::int64_t scratch_needed,
                                Span<std::uint8_t> scratch, ImageView<const Gray8> dst) {
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
-    const bool odd = element.width % 2 == 1 && element.height % 2 == 1;
-    if (!odd || element.empty() || element.width > max_element_side || element.height > max_element_side)
-        return Status::bad_argument;
+    if (!is_rectangle(element)) return Status::bad_argument;
     if (scratch.size() < scratch_needed) return Status::scratch_too_small;
     return Status::ok;
 }

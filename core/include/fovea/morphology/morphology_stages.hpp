@@ -26,6 +26,7 @@ struct ExtremeStage {
     using Output = Gray8;
     Size element;
 
+    constexpr bool valid() const { return kernels::is_rectangle(element); }
     constexpr int rows() const { return element.height; }
     static constexpr std::int64_t scratch(int width) { return byte_line_scratch(width); }
     static constexpr Border border(Border) { return Border::replicate; }

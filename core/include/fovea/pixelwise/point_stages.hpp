@@ -7,7 +7,6 @@
 #include <fovea/pixelwise/threshold.hpp>
 #include <fovea/pixelwise/to_gray.hpp>
 #include <fovea/simd/isa.hpp>
-#include <fovea/simd/triples.hpp>
 
 namespace fovea {
 inline namespace FOVEA_ISA {
@@ -31,23 +30,29 @@ struct threshold_inverse {
     }
 };
 
-/// to_gray() of colour and of YUYV.
+/// to_gray() of colour, and of what cameras send.
 struct GrayFromRgb {
     using Input = Rgb888;
     using Output = Gray8;
-    static void row(const Rgb888* src, int width, Gray8* dst) {
-        simd::weigh_triples(&src->red, width, fovea::detail::gray_weights, dst);
-    }
+    static void row(const Rgb888* src, int width, Gray8* dst) { kernels::gray_row(src, width, dst); }
 };
 struct GrayFromYuyv {
     using Input = Yuyv;
     using Output = Gray8;
     static void row(const Yuyv* src, int width, Gray8* dst) {
-        for (int x = 0; x < width; ++x) dst[x] = src[x].luma;
+        kernels::first_of_pairs_row(&src->luma, width, dst);
+    }
+};
+struct GrayFromUyvy {
+    using Input = Uyvy;
+    using Output = Gray8;
+    static void row(const Uyvy* src, int width, Gray8* dst) {
+        kernels::second_of_pairs_row(&src->chroma, width, dst);
     }
 };
 inline constexpr GrayFromRgb gray_from_rgb;
 inline constexpr GrayFromYuyv gray_from_yuyv;
+inline constexpr GrayFromUyvy gray_from_uyvy;
 
 }  // namespace stages
 }  // namespace FOVEA_ISA

@@ -9,6 +9,7 @@
 //     std::int64_t scratch(int width) const;           bytes that a kernel wants
 //     Kernel kernel(Border, Span<std::uint8_t> scratch, int width) const;
 //     Border border(Border stream) const;              only where it is not that of the stream
+//     bool valid() const;                              only where some parameters make no kernel
 // A point stage has a window of one row, and a function in place of the kernel:
 //     using Input, Output;
 //     void row(const Input* src, int width, Output* dst) const;      dst may be src where both are the same
@@ -125,6 +126,11 @@ inline constexpr bool has_border_v = false;
 template <class Stage>
 inline constexpr bool
     has_border_v<Stage, std::void_t<decltype(std::declval<const Stage&>().border(Border::replicate))>> = true;
+
+template <class Stage, class = void>
+inline constexpr bool has_valid_v = false;
+template <class Stage>
+inline constexpr bool has_valid_v<Stage, std::void_t<decltype(std::declval<const Stage&>().valid())>> = true;
 
 template <class Stage>
 inline constexpr bool is_tap_v = false;
