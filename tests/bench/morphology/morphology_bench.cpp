@@ -17,12 +17,13 @@ Peer rectangle([[maybe_unused]] int operation, [[maybe_unused]] int side) {
 }
 
 Peer ellipse([[maybe_unused]] int operation, [[maybe_unused]] int side) {
-    return FOVEA_OPENCV(
+    return FOVEA_OPENCV_KEEPING(
+        =,
         cv::morphologyEx(in[0], out, operation, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side})));
 }
 Peer cross([[maybe_unused]] int operation, [[maybe_unused]] int side) {
-    return FOVEA_OPENCV(
-        cv::morphologyEx(in[0], out, operation, cv::getStructuringElement(cv::MORPH_CROSS, {side, side})));
+    return FOVEA_OPENCV_KEEPING(
+        =, cv::morphologyEx(in[0], out, operation, cv::getStructuringElement(cv::MORPH_CROSS, {side, side})));
 }
 
 /// Of the dark part; imgproc has nothing like it.

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <fovea/pixelwise/copy.hpp>
+#include <fovea/pixelwise/lookup_table.hpp>
+
 #include <bench/operators.hpp>
 
 namespace fovea::bench {
@@ -39,8 +42,8 @@ const bool added = [] {
                  FOVEA_OPENCV(cv::threshold(in[0], out, 99, 0, cv::THRESH_TOZERO)));
     add_operator(1214, "threshold_filter_inverse", Sizes::vga, {100},
                  FOVEA_OPENCV(cv::threshold(in[0], out, 99, 0, cv::THRESH_TOZERO_INV)));
-    add_operator(1220, "gamma", Sizes::vga_and_full_hd, {45}, FOVEA_OPENCV(cv::LUT(in[0], table, out)),
-                 "apply_lut of a gamma table");
+    add_operator(1220, "gamma", Sizes::vga_and_full_hd, {45},
+                 FOVEA_OPENCV_KEEPING(table, cv::LUT(in[0], table, out)), "apply_lut of a gamma table");
     add_operator(1221, "affine", Sizes::vga, {150, -20}, FOVEA_OPENCV(in[0].convertTo(out, CV_8U, 1.5, -20)));
     add_operator(1222, "amplify", Sizes::vga, {150}, FOVEA_OPENCV(in[0].convertTo(out, CV_8U, 1.5)));
     add_operator(1223, "logarithm", Sizes::vga, {}, Peer());

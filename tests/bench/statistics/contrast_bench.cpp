@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <bench/operators.hpp>
-
 #include <fovea/statistics/colour_histogram.hpp>
+#include <fovea/statistics/histogram.hpp>
+#include <fovea/statistics/integral_image.hpp>
 #include <fovea/statistics/projection.hpp>
 #include <fovea/statistics/reductions.hpp>
+
+#include <bench/operators.hpp>
 
 namespace fovea::bench {
 namespace {

@@ -15,7 +15,7 @@ constexpr int constant = 1;
 
 /// OpenCV's turn about the middle of an image, from the output to the source.
 Peer turn([[maybe_unused]] double degrees, [[maybe_unused]] bool smooth) {
-    return FOVEA_OPENCV({
+    return FOVEA_OPENCV_KEEPING(=, {
         const double angle = degrees * 3.14159265358979323846 / 180;
         const double c = std::cos(angle);
         const double s = std::sin(angle);
@@ -26,11 +26,13 @@ Peer turn([[maybe_unused]] double degrees, [[maybe_unused]] bool smooth) {
                        (smooth ? cv::INTER_LINEAR : cv::INTER_NEAREST) | cv::WARP_INVERSE_MAP);
     });
 }
-Peer flipped([[maybe_unused]] int how) { return FOVEA_OPENCV(cv::flip(in[0], out, how)); }
-Peer resized([[maybe_unused]] int how) { return FOVEA_OPENCV(cv::resize(in[0], out, out.size(), 0, 0, how)); }
+Peer flipped([[maybe_unused]] int how) { return FOVEA_OPENCV_KEEPING(=, cv::flip(in[0], out, how)); }
+Peer resized([[maybe_unused]] int how) {
+    return FOVEA_OPENCV_KEEPING(=, cv::resize(in[0], out, out.size(), 0, 0, how));
+}
 Peer transposed() { return FOVEA_OPENCV(cv::transpose(in[0], out)); }
 /// By OpenCV's numbers: 0 clockwise, 2 counterclockwise.
-Peer quarter([[maybe_unused]] int how) { return FOVEA_OPENCV(cv::rotate(in[0], out, how)); }
+Peer quarter([[maybe_unused]] int how) { return FOVEA_OPENCV_KEEPING(=, cv::rotate(in[0], out, how)); }
 /// With the values of the lines below.
 Peer affine() {
     return FOVEA_OPENCV({
