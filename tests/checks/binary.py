@@ -37,7 +37,7 @@ SYMBOLS = {
 
 # What an object file may call outside: memory functions, and the integer helpers of processors that lack an instruction.
 ALLOWED = re.compile(r"mem(cpy|set|move|cmp)|__aeabi_mem(cpy|set|move|clr)[48]?|__aeabi_u?[il]div(mod)?|"
-                     r"__aeabi_(l(mul|lsl|lsr|asr)|u?lcmp)|__(u?div|u?mod|u?divmod|mul|ashl|ashr|lshr|clz|ctz|popcount|u?cmp|neg)"
+                     r"__aeabi_(l(mul|lsl|lsr|asr)|u?lcmp)|__(u?div|u?mod|u?divmod|mul|ashl|ashr|lshr|bswap|clz|ctz|popcount|u?cmp|neg)"
                      r"[sdt]i[234]|__gnu_thumb1_case_[us](qi|hi|i)|_GLOBAL_OFFSET_TABLE_")
 
 FORBIDDEN_SECTIONS = re.compile(r"\.(eh_frame|gcc_except_table|ARM\.extab|init_array|ctors|tdata|tbss)(\..*)?")
