@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Times operators against memcpy of the frame and against what others offer, all in one process.
+// Times operators against memcpy of the bytes that they must move and against what others offer, all in one
+// process.
 //
 // The columns of a row are interleaved round by round, so that what disturbs the machine disturbs them alike.
 // A sample is an untimed call, which brings the column's memory into the cache, and then a batch of calls.
 // What is reported is the median; what counts is the ratio of two medians of the same run.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -44,17 +45,21 @@ public:
         owners_.push_back(owner);
         return *owner;
     }
+    /// Bytes that the operator reads and writes at least. Without this: a gray frame, read and written.
+    void moves(std::int64_t bytes) { moved_bytes_ = bytes; }
     /// The work does not grow with the image, so figures per pixel would say nothing.
     void not_per_pixel() { per_pixel_ = false; }
     /// Said beside the figures.
     void remark(const std::string& text) { remark_ = text; }
 
+    std::int64_t moved_bytes() const { return moved_bytes_ > 0 ? moved_bytes_ : 2 * size_.area(); }
     bool per_pixel() const { return per_pixel_; }
     const std::string& remark() const { return remark_; }
     std::vector<Column>& columns() { return columns_; }
 
 private:
     Size size_;
+    std::int64_t moved_bytes_ = 0;
     bool per_pixel_ = true;
     std::string remark_;
     std::vector<Column> columns_;
@@ -63,8 +68,9 @@ private:
 
 using SetUp = std::function<void(Row&)>;
 
-/// Which sizes a case is run at.
-enum class Sizes { vga, vga_and_full_hd };
+/// Which sizes a case is run at if none are asked for. Cases of the cost against the window are run at VGA
+/// and stand in a table of their own.
+enum class Sizes { vga, vga_and_full_hd, windows };
 
 /// Adds a case, before main() begins. order sorts the rows of the page.
 bool add(int order, const std::string& name, Sizes sizes, SetUp set_up);

@@ -92,6 +92,9 @@ inline bool add_operator(int order, const std::string& name, Sizes sizes, const 
             call.inputs[i] = image(op->inputs[i], row.size(), operator_picture(op->inputs[i], row.size(), i));
         const Size out = op->size_for(row.size(), call.values);
         call.output = image(op->output, out, bytes(out.area() * bytes_of(op->output)));
+        std::int64_t moved = out.area() * bytes_of(op->output);
+        for (int i = 0; i < op->input_count(); ++i) moved += row.size().area() * bytes_of(op->inputs[i]);
+        row.moves(moved);
         call.scratch = span_of(row.keep(bytes(op->scratch_for(row.size(), call.values))));
         if (const Status s = run_operator(*op, call); s != Status::ok) {
             std::fprintf(stderr, "bench: %s: %s\n", name.c_str(), describe(s));

@@ -62,6 +62,18 @@ TEST(Box, DividesEverySumExactly) {
             const std::uint32_t quotient = sum * (65536 / area) >> 16;
             ASSERT_EQ(quotient + (sum - quotient * area >= area ? 1 : 0), sum / area) << area;
         }
+    // Every larger one: the same of the sum in 16ths. A quotient errs most just below and at a multiple of
+    // the area.
+    for (std::uint32_t width = 1; width <= 63; width += 2)
+        for (std::uint32_t height = 1; height <= 63; height += 2)
+            for (std::uint32_t mean = 1; mean <= 256; ++mean)
+                for (const std::uint32_t sum : {mean * width * height - 1, mean * width * height}) {
+                    const std::uint32_t area = width * height;
+                    if (area <= 255 || sum > area * 255 + area / 2) continue;
+                    const std::uint32_t quotient = (sum >> 4) * ((1 << 20) / area) >> 16;
+                    ASSERT_LE((sum >> 4), 65535u);
+                    ASSERT_EQ(quotient + (sum - quotient * area >= area), sum / area) << area << " " << sum;
+                }
 }
 
 TEST(Box, EqualsTheReferenceForEveryElement) {

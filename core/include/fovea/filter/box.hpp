@@ -52,9 +52,7 @@ inline Status box_5x5(ImageView<const Gray8> src, Border border, Span<std::uint8
 /// Rounding nearest; the largest sum is 63 * 63 * 255
 /// Scratch  box_scratch(src.size()) bytes, undefined afterwards
 /// Errors   also bad_argument for an even, too small or too large element
-/// Time     grows with the height of the element and the logarithm of its width up to 255 pixels in it;
-/// above,
-///          with the height alone
+/// Time     grows with the logarithm of the element's width; its height costs nothing
 /// Others   as box_3x3()
 inline Status box(ImageView<const Gray8> src, Size element, Border border, Span<std::uint8_t> scratch,
                   ImageView<Gray8> dst);
@@ -104,24 +102,32 @@ constexpr bool is_box_element(Size element) {
 }
 
 /// The row kernel of box(): columns are summed down the window, then neighbours across.
+///
+/// Where a window has moved on by one row, a column's sum gains the new row and has lost the one that left.
 class BoxRow {
 public:
     using Input = Gray8;
     using Output = Gray8;
 
-    /// Sums of 1, 2, 4 ... columns; an element of at most most_vector_area pixels is at most this wide.
-    static constexpr int levels = 6;
     /// Up to this many pixels a sum and half of them fit 16 bits.
-    static constexpr int most_vector_area = 255;
+    static constexpr int most_narrow_area = 255;
+    /// From this width on vectors sum across a large element too. Short ones, whose numbers share a register,
+    /// cannot: they let sums grow beyond 16 bits.
+    static constexpr bool wide_in_vectors = simd::lanes >= 16;
+    static constexpr int lines = wide_in_vectors ? 5 : 4;
     static constexpr std::int64_t scratch(int width) {
-        return levels * std::int64_t{word_line_scratch(width)};
+        return lines * std::int64_t{word_line_scratch(width)};
     }
 
     BoxRow() = default;
     BoxRow(Size element, Border border, Span<std::uint8_t> scratch, int width)
-        : element_(element), border_(border), lines_{line(scratch, width, 0), line(scratch, width, 1),
-                                                     line(scratch, width, 2), line(scratch, width, 3),
-                                                     line(scratch, width, 4), line(scratch, width, 5)} {
+        : element_(element),
+          border_(border),
+          columns_(line(scratch, width, 0)),
+          remaining_(line(scratch, width, 1)),
+          fours_(line(scratch, width, 2)),
+          sixteens_(line(scratch, width, 3)) {
+        if constexpr (wide_in_vectors) coarse_sixteens_ = line(scratch, width, 4);
         // As in FilterRow: no column beyond the end may carry into one that counts.
         std::memset(scratch.data(), 0, static_cast<std::size_t>(BoxRow::scratch(width)));
     }
@@ -130,12 +136,21 @@ public:
 
     void operator()(const RowWindow<Gray8>& window, Gray8* dst) {
         const int width = window.width();
-        down(window, width);
-        continue_ends(width);
-        if (element_.width * element_.height <= most_vector_area)
-            across_in_vectors(width, dst);
+        if (moved_on(window))
+            down_one(window, width);
         else
+            down(window, width);
+        for (int i = 0; i < window.count(); ++i) before_[i] = window[i];
+        continue_ends(width);
+        if (element_.width * element_.height <= most_narrow_area) {
+            add_fours(width);
+            divide_narrow(width, dst);
+        } else if constexpr (wide_in_vectors) {
+            add_fours(width);
+            divide_wide(width, dst);
+        } else {
             across_one_by_one(width, dst);
+        }
     }
 
 private:
@@ -143,72 +158,155 @@ private:
         const int bytes = word_line_scratch(width);
         return simd::WordLine(scratch.from(number * std::ptrdiff_t{bytes}).first(bytes), width);
     }
+    static simd::Words load(const Gray8* row, int x, int count) {
+        return simd::Words(count == simd::lanes ? simd::Bytes::load(row + x)
+                                                : simd::Bytes::load(row + x, count));
+    }
+
+    // ---- Down ----
+
+    /// True if all rows of the window but the last are those of the window before but its first.
+    bool moved_on(const RowWindow<Gray8>& window) const {
+        if (before_[0] == nullptr) return false;
+        for (int i = 0; i + 1 < window.count(); ++i)
+            if (window[i] != before_[i + 1]) return false;
+        return true;
+    }
     void down(const RowWindow<Gray8>& window, int width) {
         simd::for_each_vector(width, [&](int x, int count) {
             simd::Words sum = simd::Words::all(0);
-            if (count == simd::lanes)
-                for (int i = 0; i < window.count(); ++i)
-                    sum = sum + simd::Words(simd::Bytes::load(window[i] + x));
-            else
-                for (int i = 0; i < window.count(); ++i)
-                    sum = sum + simd::Words(simd::Bytes::load(window[i] + x, count));
-            lines_[0].put(x, sum);
+            for (int i = 1; i < window.count(); ++i) sum = sum + load(window[i], x, count);
+            remaining_.put(x, sum);
+            columns_.put(x, sum + load(window[0], x, count));
+        });
+    }
+    void down_one(const RowWindow<Gray8>& window, int width) {
+        const Gray8* first = window[0];
+        const Gray8* last = window[window.count() - 1];
+        simd::for_each_vector(width, [&](int x, int count) {
+            const simd::Words sum = remaining_.at<0>(x) + load(last, x, count);
+            columns_.put(x, sum);
+            remaining_.put(x, sum - load(first, x, count));
         });
     }
     void continue_ends(int width) {
         for (int i = 1; i <= element_.width / 2; ++i) {
             const int left = border_index(border_, -i, width);
             const int right = border_index(border_, width - 1 + i, width);
-            lines_[0].set(-i, left == no_index ? std::uint16_t{0} : lines_[0].value(left));
-            lines_[0].set(width - 1 + i, right == no_index ? std::uint16_t{0} : lines_[0].value(right));
+            columns_.set(-i, left == no_index ? std::uint16_t{0} : columns_.value(left));
+            columns_.set(width - 1 + i, right == no_index ? std::uint16_t{0} : columns_.value(right));
         }
     }
-    /// The sums of 2, 4, 8 ... columns from each column on; an element's width is a sum of powers of two.
-    void across_in_vectors(int width, Gray8* dst) {
+
+    // ---- Across ----
+
+    /// Sums of 4 and of 16 columns from each column on: a width is so many of them and so many columns.
+    void add_fours(int width) {
         const int reach = element_.width / 2;
-        const int first = -(reach + reach % 2);
-        for (int level = 1; 1 << level <= element_.width; ++level) {
-            const int half = 1 << (level - 1);
-            for (int x = first; x <= width + reach - (1 << level); x += simd::lanes)
-                lines_[level].put(x, lines_[level - 1].at(x, 0) + lines_[level - 1].at(x, half));
+        const int begin = -(reach + reach % 2);
+        if (element_.width < 4) return;
+        for (int x = begin; x <= width + reach - 4; x += simd::lanes)
+            fours_.put(x, (columns_.at<0>(x) + columns_.at<1>(x)) + (columns_.at<2>(x) + columns_.at<3>(x)));
+        if (element_.width < 16) return;
+        for (int x = begin; x <= width + reach - 16; x += simd::lanes) {
+            const simd::Words a = fours_.at<0>(x);
+            const simd::Words b = fours_.at<4>(x);
+            const simd::Words c = fours_.at<8>(x);
+            const simd::Words d = fours_.at<12>(x);
+            sixteens_.put(x, (a + b) + (c + d));
+            if constexpr (wide_in_vectors)
+                coarse_sixteens_.put(x, ((a >> coarse) + (b >> coarse)) + ((c >> coarse) + (d >> coarse)));
         }
+    }
+    simd::Words across_narrow(int x) const {
+        int offset = -(element_.width / 2);
+        simd::Words sum = columns_.at(x, offset++);
+        for (int i = element_.width % 4; i > 1; --i) sum = sum + columns_.at(x, offset++);
+        for (int i = element_.width / 4 % 4; i > 0; --i, offset += 4) sum = sum + fours_.at(x, offset);
+        for (int i = element_.width / 16; i > 0; --i, offset += 16) sum = sum + sixteens_.at(x, offset);
+        return sum;
+    }
+    void divide_narrow(int width, Gray8* dst) const {
         const int area = element_.width * element_.height;
-        const auto half = static_cast<std::uint16_t>(area / 2);
+        const simd::Words half = simd::Words::all(static_cast<std::uint16_t>(area / 2));
         // The reciprocal rounded down gives a quotient that is right or one too small.
         const auto reciprocal = static_cast<std::uint16_t>(area == 1 ? 65535 : 65536 / area);
         const simd::Words one = simd::Words::all(1);
         const simd::Words divisor = simd::Words::all(static_cast<std::uint16_t>(area));
         simd::for_each_vector(width, [&](int x, int count) {
-            simd::Words sum = simd::Words::all(half);
-            int offset = -reach;
-            for (int level = 0; 1 << level <= element_.width; ++level)
-                if ((element_.width >> level & 1) != 0) {
-                    sum = sum + lines_[level].at(x, offset);
-                    offset += 1 << level;
-                }
+            const simd::Words sum = across_narrow(x) + half;
             const simd::Words quotient = times_high(sum, reciprocal);
             const simd::Words rest = sum - quotient * static_cast<std::uint16_t>(area);
             (quotient + (at_least(rest, divisor) & one)).narrow().store(dst + x, count);
         });
     }
+
+    /// Sums of more than 16 bits: their low 16 bits, and in 64ths, rounded down in every sum of 1 to 4
+    /// columns.
+    struct WideSum {
+        simd::Words low;
+        simd::Words coarse;
+    };
+    static constexpr int coarse = 6;
+
+    WideSum across_wide(int x) const {
+        int offset = -(element_.width / 2);
+        simd::Words low = columns_.at(x, offset++);
+        for (int i = element_.width % 4; i > 1; --i) low = low + columns_.at(x, offset++);
+        simd::Words high = low >> coarse;
+        for (int i = element_.width / 4 % 4; i > 0; --i, offset += 4) {
+            const simd::Words four = fours_.at(x, offset);
+            low = low + four;
+            high = high + (four >> coarse);
+        }
+        for (int i = element_.width / 16; i > 0; --i, offset += 16) {
+            low = low + sixteens_.at(x, offset);
+            high = high + coarse_sixteens_.at(x, offset);
+        }
+        return {low, high};
+    }
+    void divide_wide(int width, Gray8* dst) const {
+        const int area = element_.width * element_.height;
+        const auto divisor = static_cast<std::uint16_t>(area);
+        const simd::Words half = simd::Words::all(static_cast<std::uint16_t>(area / 2));
+        const simd::Words one = simd::Words::all(1);
+        // 16 / area in 2^-16, rounded down.
+        const auto reciprocal = static_cast<std::uint16_t>((1 << 20) / area);
+        simd::for_each_vector(width, [&](int x, int count) {
+            const WideSum sum = across_wide(x);
+            const simd::Words low = sum.low + half;
+            // At most 16 sums were rounded: what 64 coarse is too little is below 64 * 16 + area / 2, so that
+            // its low 16 bits tell it, and with it the sum in 16ths. The quotient of these is right or one
+            // too small: sum < 256 area, so it lacks less than 255.5 area / 2^20 + 15 / area < 1.
+            const simd::Words lacking = low - (sum.coarse << coarse);
+            const simd::Words quotient =
+                times_high((sum.coarse << (coarse - 4)) + (lacking >> 4), reciprocal);
+            const simd::Words rest = low - quotient * divisor;
+            (quotient + (at_least(rest, simd::Words::all(divisor)) & one)).narrow().store(dst + x, count);
+        });
+    }
     /// A running sum of 32 bits.
-    void across_one_by_one(int width, Gray8* dst) {
+    void across_one_by_one(int width, Gray8* dst) const {
         const int reach = element_.width / 2;
         const auto area = static_cast<std::uint32_t>(element_.width * element_.height);
         // Less than area too much for 2^32 of them, and sums are below 2^20: exact.
         const std::uint32_t reciprocal = 0xffffffffu / area + 1;
         std::uint32_t sum = area / 2;
-        for (int x = -reach; x < reach; ++x) sum += lines_[0].value(x);
+        for (int x = -reach; x < reach; ++x) sum += columns_.value(x);
         for (int x = 0; x < width; ++x) {
-            sum += lines_[0].value(x + reach);
+            sum += columns_.value(x + reach);
             dst[x] = static_cast<Gray8>(std::uint64_t{sum} * reciprocal >> 32);
-            sum -= lines_[0].value(x - reach);
+            sum -= columns_.value(x - reach);
         }
     }
 
     Size element_{1, 1};
     Border border_ = Border::replicate;
-    simd::WordLine lines_[levels];
+    /// The rows of the window before.
+    const Gray8* before_[max_window_rows] = {};
+    /// Sums of the columns, and those without the first row of the window.
+    simd::WordLine columns_, remaining_;
+    simd::WordLine fours_, sixteens_, coarse_sixteens_;
 };
 
 }  // namespace kernels

@@ -7,8 +7,8 @@
 //     using Input = ...;   using Output = ...;         the pixels it reads and writes
 //     int rows() const;                                the height of its window, odd
 //     void operator()(const RowWindow<Input>& window, Output* dst);
-// that makes one output row from the rows of its window. It may hold scratch, but nothing that survives a
-// row.
+// that makes one output row from the rows of its window. It may hold scratch; of the row before it may keep
+// what it can tell is still true by the addresses of the rows.
 #pragma once
 
 #include <fovea/base/assert.hpp>
