@@ -3,9 +3,11 @@
 // fovea op: applies operators of the catalogue to a picture.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <common/arguments.hpp>
@@ -57,6 +59,37 @@ bool load_any(Storage& storage, const std::string& name, PixelKind kind, AnyPict
     return false;
 }
 
+/// Runs a pipeline on files; second is for operators of two pictures. after(step, output, scratch_bytes) sees
+/// what each step makes. False if something failed, and problem says what: a file, or an operator of command.
+template <class Storage, class After>
+bool run_pipeline(Storage& storage, const char* command, const std::vector<PipelineStep>& steps,
+                  const std::string& first, const std::string& second, After after, AnyPicture& picture,
+                  std::string& problem) {
+    if (!load_any(storage, first, steps[0].op->inputs[0], picture, problem)) return false;
+    for (const PipelineStep& step : steps) {
+        AnyPicture other;
+        const bool two = step.op->input_count() == 2;
+        if (two && !load_any(storage, second, step.op->inputs[1], other, problem)) return false;
+        AnyPicture output;
+        std::int64_t scratch_bytes = 0;
+        if (const Status status = run_step(step, picture, two ? &other : nullptr, output, scratch_bytes);
+            status != Status::ok) {
+            problem = std::string("fovea ") + command + ": " + step.op->name + ": " + describe(status) +
+                      " (" + std::to_string(picture.size.width) + "x" + std::to_string(picture.size.height) +
+                      ")";
+            return false;
+        }
+        after(step, output, scratch_bytes);
+        picture = std::move(output);
+    }
+    return true;
+}
+
+inline bool takes_two(const std::vector<PipelineStep>& steps) {
+    return std::any_of(steps.begin(), steps.end(),
+                       [](const PipelineStep& step) { return step.op->input_count() == 2; });
+}
+
 inline std::string json_step(const PipelineStep& step, const AnyPicture& output, std::int64_t scratch_bytes) {
     std::string text = "{\"schema\":1,\"op\":" + json_string(step.op->name) + ",\"values\":{";
     for (std::size_t i = 0; i < step.values.size(); ++i) {
@@ -89,8 +122,7 @@ ExitCode op_command(Io& io, const std::vector<std::string>& words) {
             "needs a pipeline, a picture and the picture to write, such as: fovea op sobel_magnitude in.jpg "
             "out.png";
     if (problem.empty()) parse_pipeline(operands[0], steps, problem);
-    bool wants_second = false;
-    for (const PipelineStep& step : steps) wants_second = wants_second || step.op->input_count() == 2;
+    const bool wants_second = detail::takes_two(steps);
     if (problem.empty() && operands.size() != (wants_second ? 4u : 3u))
         problem = wants_second ? "the pipeline takes two pictures, and the one to write behind them"
                                : "what is " + one_line(operands[3]) + "? the pipeline takes one picture";
@@ -101,27 +133,13 @@ ExitCode op_command(Io& io, const std::vector<std::string>& words) {
     }
 
     AnyPicture picture;
-    if (!detail::load_any(io.storage(), operands[1], steps[0].op->inputs[0], picture, problem)) {
+    const auto after = [&](const PipelineStep& step, const AnyPicture& output, std::int64_t scratch_bytes) {
+        if (arguments.has("json")) io.print(detail::json_step(step, output, scratch_bytes));
+    };
+    if (!detail::run_pipeline(io.storage(), "op", steps, operands[1], wants_second ? operands[2] : "", after,
+                              picture, problem)) {
         io.complain(problem);
         return exit_failed;
-    }
-    for (const PipelineStep& step : steps) {
-        AnyPicture second;
-        const bool two = step.op->input_count() == 2;
-        if (two && !detail::load_any(io.storage(), operands[2], step.op->inputs[1], second, problem)) {
-            io.complain(problem);
-            return exit_failed;
-        }
-        AnyPicture output;
-        std::int64_t scratch_bytes = 0;
-        if (const Status status = run_step(step, picture, two ? &second : nullptr, output, scratch_bytes);
-            status != Status::ok) {
-            io.complain("fovea op: " + std::string(step.op->name) + ": " + describe(status) + " (" +
-                        std::to_string(picture.size.width) + "x" + std::to_string(picture.size.height) + ")");
-            return exit_failed;
-        }
-        if (arguments.has("json")) io.print(detail::json_step(step, output, scratch_bytes));
-        picture = std::move(output);
     }
     std::string note;
     if (!save_shown(io.storage(), operands.back(), picture, note, problem)) {

@@ -47,30 +47,51 @@ Picture<Pixel> as_picture(const AnyPicture& from) {
     return picture;
 }
 
+/// Pixels of one number in grey levels; false for others.
+inline bool shown_in_gray(const AnyPicture& picture, Picture<Gray8>& shown, std::string& note) {
+    switch (picture.kind) {
+        case PixelKind::gray8: shown = as_picture<Gray8>(picture); return true;
+        case PixelKind::gray16: shown = numbers_shown<Gray16>(picture, note); return true;
+        case PixelKind::gradient16: shown = numbers_shown<Gradient16>(picture, note); return true;
+        case PixelKind::sum32: shown = numbers_shown<Sum32>(picture, note); return true;
+        default: return false;
+    }
+}
+/// Pixels of three numbers as red, green and blue; false for others.
+inline bool has_three_numbers(PixelKind kind, std::string& note) {
+    if (kind == PixelKind::hsv888) note = ", whose red, green and blue are hue, saturation and value";
+    if (kind == PixelKind::lab888) note = ", whose red, green and blue are lightness, a and b";
+    return kind == PixelKind::rgb888 || kind == PixelKind::hsv888 || kind == PixelKind::lab888;
+}
+
 }  // namespace detail
 
 /// Writes pixels of any kind; note says what a person could not guess.
 template <class Storage>
 bool save_shown(Storage& storage, const std::string& name, const AnyPicture& picture, std::string& note,
                 std::string& problem) {
-    switch (picture.kind) {
-        case PixelKind::gray8:
-            return save_picture(storage, name, detail::as_picture<Gray8>(picture), problem);
-        case PixelKind::rgb888:
-            return save_picture(storage, name, detail::as_picture<Rgb888>(picture), problem);
-        case PixelKind::hsv888:
-            note = ", whose red, green and blue are hue, saturation and value";
-            return save_picture(storage, name, detail::as_picture<Rgb888>(picture), problem);
-        case PixelKind::lab888:
-            note = ", whose red, green and blue are lightness, a and b";
-            return save_picture(storage, name, detail::as_picture<Rgb888>(picture), problem);
-        case PixelKind::gray16:
-            return save_picture(storage, name, detail::numbers_shown<Gray16>(picture, note), problem);
-        case PixelKind::gradient16:
-            return save_picture(storage, name, detail::numbers_shown<Gradient16>(picture, note), problem);
-        case PixelKind::sum32:
-            return save_picture(storage, name, detail::numbers_shown<Sum32>(picture, note), problem);
-        default: break;
+    Picture<Gray8> gray;
+    if (detail::has_three_numbers(picture.kind, note))
+        return save_picture(storage, name, detail::as_picture<Rgb888>(picture), problem);
+    if (detail::shown_in_gray(picture, gray, note)) return save_picture(storage, name, gray, problem);
+    problem = std::string("there is no picture of ") + describe(picture.kind);
+    return false;
+}
+
+/// Pixels of any kind in the colours that save_shown() writes.
+inline bool shown_in_colour(const AnyPicture& picture, Picture<Rgb888>& shown, std::string& problem) {
+    std::string note;
+    Picture<Gray8> gray;
+    if (detail::has_three_numbers(picture.kind, note)) {
+        shown = detail::as_picture<Rgb888>(picture);
+        return true;
+    }
+    if (detail::shown_in_gray(picture, gray, note)) {
+        shown = Picture<Rgb888>(gray.size);
+        std::transform(gray.pixels.begin(), gray.pixels.end(), shown.pixels.begin(), [](Gray8 level) {
+            return Rgb888{level, level, level};
+        });
+        return true;
     }
     problem = std::string("there is no picture of ") + describe(picture.kind);
     return false;

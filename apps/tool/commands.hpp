@@ -14,6 +14,7 @@
 #include <op/op_command.hpp>
 #include <op/ops_command.hpp>
 #include <op/picture_commands.hpp>
+#include <op/sheet_command.hpp>
 
 #ifndef FOVEA_VERSION
 #define FOVEA_VERSION "unknown"
@@ -31,13 +32,10 @@ struct Entry {
 
 template <class Io>
 std::vector<Entry<Io>> commands() {
-    return {{gauge_help(), gauge_command<Io>},
-            {teach_help(), teach_command<Io>},
-            {make_part_help(), make_part_command<Io>},
-            {op_help(), op_command<Io>},
-            {ops_help(), ops_command<Io>},
-            {info_help(), info_command<Io>},
-            {compare_help(), compare_command<Io>}};
+    return {{gauge_help(), gauge_command<Io>},         {teach_help(), teach_command<Io>},
+            {make_part_help(), make_part_command<Io>}, {op_help(), op_command<Io>},
+            {sheet_help(), sheet_command<Io>},         {ops_help(), ops_command<Io>},
+            {info_help(), info_command<Io>},           {compare_help(), compare_command<Io>}};
 }
 
 template <class Io>

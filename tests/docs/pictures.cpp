@@ -26,6 +26,7 @@
 #include <fovea/warp/bilinear.hpp>
 
 #include "paper.hpp"
+#include "scene.hpp"
 
 namespace {
 
@@ -363,5 +364,6 @@ int main(int argc, char** argv) {
     level_contour(folder + "level_contour.png");
     circle_fit(folder + "fit_circle.png");
     drawing(folder + "draw.png");
+    scene(folder + "scene.png");
     return 0;
 }
