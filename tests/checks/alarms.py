@@ -264,6 +264,22 @@ def bench(folder):
 
 
 @alarm
+def inventory(folder):
+    page = "| what | `base/a.hpp` | `base/a_test.cpp` | |\n| wrong | `A.IsRight` |\n"
+    good = {BASE: HEAD, "tests/core/base/a_test.cpp": SPDX + "TEST(A, IsRight) {}\n", "docs/inventory.md": page}
+
+    def trial(what, words, old="", new=""):
+        tree = write(folder / what.replace(" ", "_"), {**good, "docs/inventory.md": page.replace(old, new) if old else page})
+        return what, [CHECKS / "inventory.py", tree], words
+
+    yield trial("all is there", None)
+    yield trial("a header that is gone", "docs/inventory.md:1: there is no base/b.hpp", "a.hpp", "b.hpp")
+    yield trial("a test file that is gone", "there is no base/b_test.cpp", "a_test.cpp", "b_test.cpp")
+    yield trial("a test that is gone", "docs/inventory.md:2: there is no A.IsWrong", "IsRight", "IsWrong")
+    yield trial("a page of nothing", "names nothing", "`", "")
+
+
+@alarm
 def golden(folder):
     def tree(name, files=None, excuse=""):
         made = copy_of_project(folder / name)
