@@ -63,6 +63,13 @@ functions take some ten bytes. Types are as above, with pointers of four bytes.
 |---|{rules}|
 """
 
+OPERATORS_HEAD = """
+The operators of the catalogue, each in a program that has no other:
+
+| operator | {names} |
+|---|{rules}|
+"""
+
 
 def compiled(compiler, flags, source, folder, name):
     target = Path(folder) / f"{name}.o"
@@ -129,6 +136,34 @@ def deepest_stack(graph, entry):
     return depth(node)
 
 
+def catalogue():
+    """Array of a family -> names of its operators, in the order of the families."""
+    headers = PROJECT / "core/include/fovea/catalogue"
+    arrays = re.findall(r'\{"\w+", catalogue::(\w+)\}', (headers / "catalogue.hpp").read_text())
+    text = {array: path.read_text() for path in headers.glob("*.hpp") for array in
+            re.findall(r"inline constexpr Operator (\w+)\[\]", path.read_text())}
+    return {array: re.findall(r'(?:\{|_entry<[^>]*>\(\s*|_entry\(\s*)"(\w+)",\s*"', text[array][text[array].index(f"Operator {array}[]"):])
+            for array in arrays}
+
+
+def operator_columns(folder):
+    """Per chip: operator -> flash and stack."""
+    columns = [{} for _ in CHIPS]
+    for array, names in catalogue().items():
+        source = Path(folder) / f"{array}.cpp"
+        functions = "".join(
+            f'extern "C" fovea::Status op_{name}(const fovea::OperatorCall& call) {{\n'
+            f'    constexpr const fovea::Operator* op = fovea::find_operator("{name}");\n'
+            f"    return op->run(call);\n}}\n" for name in names)
+        source.write_text("#include <fovea/catalogue/catalogue.hpp>\n" + functions)
+        for column, (chip, flags) in zip(columns, CHIPS.items()):
+            target = compiled("arm-none-eabi-g++", [*CHIP_FLAGS, *flags, "-fcallgraph-info=su"], source, folder, array)
+            graph = (Path(folder) / f"{array}.ci").read_text()
+            for name in names:
+                column[name] = (flash_of(flags, target, f"op_{name}", folder), deepest_stack(graph, f"op_{name}"))
+    return columns
+
+
 def chip_part(folder):
     if not shutil.which("arm-none-eabi-g++"):
         return None
@@ -151,6 +186,10 @@ def chip_part(folder):
     for task, name in TASKS.items():
         cells = [str(number) for column in columns for number in column[task]]
         text += f"| {name} | " + " | ".join(cells) + " |\n"
+    operators = operator_columns(folder)
+    text += OPERATORS_HEAD.format(names=names, rules="|".join(["---"] * 2 * len(CHIPS)))
+    for name in operators[0]:
+        text += f"| {name} | " + " | ".join(str(number) for column in operators for number in column[name]) + " |\n"
     return text + "\n| type | bytes |\n|---|---|\n" + "".join(f"| `{name}` | {size} |\n" for name, size in types.items())
 
 
