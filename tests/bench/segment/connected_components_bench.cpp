@@ -18,13 +18,15 @@ struct Lists {
 };
 
 template <class Accumulated = Moments>
-void time_components(Row& row, Picture<Gray8> picture) {
+void time_components(Row& row, Picture<Gray8> picture, bool find_holes = true) {
     auto& src = row.keep(std::move(picture));
     auto& lists = row.keep(Lists<Accumulated>());
     auto& scratch = row.keep(bytes(connected_components_scratch<Accumulated>(row.size().width)));
-    row.ours([&] {
+    ComponentOptions options;
+    options.find_holes = find_holes;
+    row.ours([&, options] {
         consume(connected_components<Accumulated>(
-            src.view(), {}, span_of(scratch),
+            src.view(), options, span_of(scratch),
             {lists.regions.data(), static_cast<int>(lists.regions.size()), &lists.region_count},
             {lists.holes.data(), static_cast<int>(lists.holes.size()), &lists.hole_count}));
     });
@@ -41,7 +43,7 @@ const bool blobs_added = add(40, "connected components, 400 discs", Sizes::vga_a
 
 const bool light_added =
     add(1830, "connected components, 400 discs, area and centroid", Sizes::vga_and_full_hd,
-        [](Row& row) { time_components<FirstMoments>(row, blobs(row.size())); });
+        [](Row& row) { time_components<FirstMoments>(row, blobs(row.size()), false); });
 
 Picture<Gray8> noise(Size size) {
     Picture<Gray8> picture(size);
@@ -52,7 +54,9 @@ Picture<Gray8> noise(Size size) {
 }
 
 const bool noise_added = add(1831, "connected components, noise, area and centroid", Sizes::vga,
-                             [](Row& row) { time_components<FirstMoments>(row, noise(row.size())); });
+                             [](Row& row) { time_components<FirstMoments>(row, noise(row.size()), false); });
+const bool noisy_holes_added = add(1832, "connected components, noise, with holes", Sizes::vga,
+                                   [](Row& row) { time_components(row, noise(row.size())); });
 
 const bool plate_added = add(41, "connected components, one part", Sizes::vga, [](Row& row) {
     Picture<Gray8> picture = part(row.size());

@@ -46,6 +46,9 @@ TEST(Order, EqualsTheStandardLibraryOnEveryShapeOfInput) {
                                       : here >= sorted[static_cast<std::size_t>(k)]);
                 }
             }
+            std::vector<int> shelled = values;
+            sort_nearly_ordered(span_of(shelled), [](int a, int b) { return a < b; });
+            EXPECT_EQ(shelled, sorted);
             sort(span_of(values));
             EXPECT_EQ(values, sorted);
         }

@@ -197,6 +197,74 @@ TEST(ConnectedComponents, EqualTheReferenceOnRandomImages) {
     }
 }
 
+TEST(ConnectedComponents, WithoutHolesAreTheSameRegions) {
+    Random random(72);
+    for (int round = 0; round < 100; ++round) {
+        GuardedImage<Gray8> image({random.between(1, 70), random.between(1, 40)});
+        const int density = random.between(5, 95);
+        for (int y = 0; y < image.view().height(); ++y)
+            for (int x = 0; x < image.view().width(); ++x)
+                image(x, y) = random.between(0, 99) < density ? 255 : 0;
+        ComponentOptions options;
+        options.connectivity = round % 2 == 0 ? Connectivity::eight : Connectivity::four;
+        Found with = find(image.view(), options);
+        options.find_holes = false;
+        const Found without = find(image.view(), options);
+        ASSERT_EQ(without.status, Status::ok);
+        EXPECT_TRUE(without.holes.empty());
+        for (Region& region : with.regions) {
+            region.holes = 0;
+            region.hole_area = 0;
+        }
+        with.holes.clear();
+        expect_same(without, with);
+        ASSERT_FALSE(HasFatalFailure()) << "round " << round;
+    }
+}
+
+TEST(ConnectedComponents, FullListsHoldTheLargestHolesAndTheirRegions) {
+    Random random(73);
+    for (int round = 0; round < 200; ++round) {
+        GuardedImage<Gray8> image({random.between(20, 70), random.between(20, 40)});
+        const int density = random.between(45, 75);
+        for (int y = 0; y < image.view().height(); ++y)
+            for (int x = 0; x < image.view().width(); ++x)
+                image(x, y) = random.between(0, 99) < density ? 255 : 0;
+        ComponentOptions options;
+        options.connectivity = round % 2 == 0 ? Connectivity::eight : Connectivity::four;
+        const Found all = find(image.view(), options);
+        const auto room = static_cast<std::size_t>(random.between(1, 12));
+        // Room for every region, and for the largest holes.
+        List<Hole, 12> few;
+        std::vector<std::uint8_t> scratch(
+            static_cast<std::size_t>(connected_components_scratch(image.view().width())));
+        List<Region, 3000> regions;
+        int count = 0;
+        const ListView<Hole> holes(few.begin(), static_cast<int>(room), &count);
+        const Status status = connected_components(
+            image.view(), options, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())},
+            regions.view(), holes);
+        ASSERT_EQ(status, all.holes.size() > room ? Status::capacity_exceeded : Status::ok);
+        ASSERT_EQ(static_cast<std::size_t>(regions.size()), all.regions.size());
+        std::vector<std::int64_t> areas;
+        for (const Hole& hole : all.holes) areas.push_back(hole.moments.area());
+        std::sort(areas.rbegin(), areas.rend());
+        std::vector<std::int64_t> kept;
+        for (const Hole& hole : holes) {
+            kept.push_back(hole.moments.area());
+            const auto same = std::find_if(all.holes.begin(), all.holes.end(), [&](const Hole& other) {
+                return other.first.x == hole.first.x && other.first.y == hole.first.y;
+            });
+            ASSERT_NE(same, all.holes.end());
+            EXPECT_EQ(hole.region, same->region) << round;
+            EXPECT_EQ(hole.moments.m11, same->moments.m11);
+        }
+        std::sort(kept.rbegin(), kept.rend());
+        areas.resize(std::min(areas.size(), room));
+        EXPECT_EQ(kept, areas) << round;
+    }
+}
+
 TEST(ConnectedComponents, NestRingsOfAnyDepth) {
     const int side = 41;
     GuardedImage<Gray8> image({side, side});

@@ -8,12 +8,12 @@
 
 #include <fovea/base/arena.hpp>
 #include <fovea/base/list.hpp>
-#include <fovea/base/order.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/segment/component_lists.hpp>
 #include <fovea/segment/region.hpp>
 #include <fovea/segment/runs.hpp>
 #include <fovea/statistics/moments.hpp>
@@ -63,9 +63,6 @@ private:
 
     using LabelIndex = RunLabel;
     static constexpr LabelIndex none = no_label;
-    /// What a hole's region number says before finish(): nothing any more, or the label of an open region.
-    static constexpr int dropped = -1;
-    static constexpr int owned_by(LabelIndex label) { return -2 - label; }
 
     struct Label {
         Accumulated moments;
@@ -74,8 +71,9 @@ private:
         std::int16_t seen_row = -1;  ///< the last row it has a run in
         LabelIndex link = none;      ///< itself, or the label it was merged into, or the next free one
         LabelIndex outer = none;     ///< of ground: the region on its left
-        std::uint16_t holes = 0;
+        std::uint16_t hole_count = 0;
         std::int64_t hole_area = 0;
+        detail::HoleChain holes;
         bool used = false;
         bool is_region = false;
         bool at_border = false;
@@ -84,13 +82,12 @@ private:
     LabelIndex new_label(bool is_region, Point first);
     LabelIndex find(LabelIndex label);
     LabelIndex merge(LabelIndex a, LabelIndex b);
-    void add_to_label(LabelIndex index, int first, int end);
+    void add_to_label(int index, int end);
     void settle_row();
     void close_labels();
-    void close_region(LabelIndex index);
+    void close_region(const Label& label);
     void close_hole(const Label& hole);
     void free_label(LabelIndex label);
-    void order_lists();
     Status fail(Status status);
 
     int width_;
@@ -100,10 +97,11 @@ private:
     RunRow here_;
     Span<Label> labels_;
     LabelIndex free_ = none;
-    ListView<Region> regions_;
-    ListView<Hole> holes_;
+    detail::ComponentLists<Accumulated> lists_;
     Status status_ = Status::ok;  ///< what stopped the work
-    bool overflow_ = false;
+    bool merged_ = false;         ///< labels of this row
+    int open_labels_ = 0;         ///< in use and not merged into others
+    int seen_labels_ = 0;         ///< of those, with a run in this row, as long as none were merged
 };
 
 using ConnectedComponents = ConnectedComponentsOf<Moments>;
@@ -135,7 +133,7 @@ template <class Accumulated>
 ConnectedComponentsOf<Accumulated>::ConnectedComponentsOf(int width, const ComponentOptions& options,
                                                           Span<std::uint8_t> scratch,
                                                           ListView<Region> regions, ListView<Hole> holes)
-    : width_(width), options_(options), regions_(regions), holes_(holes) {
+    : width_(width), options_(options), lists_(regions, holes) {
     if (width <= 0) {
         status_ = Status::empty_image;
     } else if (width > max_moment_side) {
@@ -152,16 +150,14 @@ ConnectedComponentsOf<Accumulated>::ConnectedComponentsOf(int width, const Compo
                           static_cast<std::ptrdiff_t>(sizeof(Label));
         labels_ = arena.take<Label>(minimum<std::ptrdiff_t>(room, 2 * width + 2));
         for (std::ptrdiff_t i = labels_.size() - 1; i >= 0; --i) free_label(static_cast<LabelIndex>(i));
-        regions_.clear();
-        holes_.clear();
+        lists_.clear();
     }
 }
 
 template <class Accumulated>
 Status ConnectedComponentsOf<Accumulated>::fail(Status status) {
     status_ = status;
-    regions_.clear();
-    holes_.clear();
+    lists_.clear();
     return status;
 }
 
@@ -170,11 +166,14 @@ Status ConnectedComponentsOf<Accumulated>::add_row(const std::uint8_t* row) {
     if (status_ != Status::ok) return status_;
     if (y_ >= max_moment_side) return fail(Status::image_too_large);
     if (here_.split(row, width_) != Status::ok) return fail(Status::scratch_too_small);
+    seen_labels_ = 0;
+    merged_ = false;
     int above_from = 0;
-    for (int i = 0; i < here_.count(); ++i)
+    const int step = options_.find_holes ? 1 : 2;
+    for (int i = options_.find_holes || here_.is_region(0) ? 0 : 1; i < here_.count(); i += step)
         if (!label_run(i, above_from)) return fail(Status::scratch_too_small);
-    settle_row();
-    close_labels();
+    if (merged_) settle_row();
+    if (merged_ || seen_labels_ < open_labels_) close_labels();
     swap_values(above_, here_);
     ++y_;
     return Status::ok;
@@ -189,14 +188,19 @@ bool ConnectedComponentsOf<Accumulated>::label_run(int index, int& above_from) {
     const bool region = here_.is_region(index);
     const int reach = region == (options_.connectivity == Connectivity::eight) ? 1 : 0;
     while (above_from < above_.count() && above_.end(above_from) + 1 <= first) ++above_from;
-    for (int k = above_from; k < above_.count() && above_[k].first < end + reach; ++k) {
-        if (above_.is_region(k) != region || above_.end(k) + reach <= first) continue;
+    // Regions and ground take turns.
+    int k = above_from;
+    if (k < above_.count() && (above_.is_region(k) != region || above_.end(k) + reach <= first))
+        k += above_.is_region(k) != region ? 1 : 2;
+    LabelIndex label = none;
+    for (; k < above_.count() && above_[k].first < end + reach; k += 2) {
         const LabelIndex touched = find(above_[k].label);
-        run.label = run.label == none ? touched : merge(run.label, touched);
+        label = label == none ? touched : merge(label, touched);
     }
-    if (run.label == none) run.label = new_label(region, {first, y_});
-    if (run.label == none) return false;
-    add_to_label(run.label, first, end);
+    if (label == none) label = new_label(region, {first, y_});
+    if (label == none) return false;
+    run.label = label;
+    add_to_label(index, end);
     return true;
 }
 
@@ -212,6 +216,7 @@ auto ConnectedComponentsOf<Accumulated>::new_label(bool is_region, Point first) 
     fresh.first = first;
     fresh.left = fresh.right = static_cast<std::int16_t>(first.x);
     labels_[label] = fresh;
+    ++open_labels_;
     return label;
 }
 
@@ -234,41 +239,48 @@ auto ConnectedComponentsOf<Accumulated>::merge(LabelIndex a, LabelIndex b) -> La
     Label& kept = labels_[a];
     Label& gone = labels_[b];
     gone.link = a;
+    merged_ = true;
+    --open_labels_;
     kept.moments.add(gone.moments);
     kept.left = minimum(kept.left, gone.left);
     kept.right = maximum(kept.right, gone.right);
     kept.bottom = maximum(kept.bottom, gone.bottom);
     kept.at_border = kept.at_border || gone.at_border;
     kept.hole_area += gone.hole_area;
-    kept.holes = static_cast<std::uint16_t>(kept.holes + gone.holes);
-    if (gone.holes > 0)
-        for (Hole& hole : holes_)
-            if (hole.region == owned_by(b)) hole.region = owned_by(a);
+    kept.hole_count = static_cast<std::uint16_t>(kept.hole_count + gone.hole_count);
+    lists_.join(kept.holes, gone.holes);
     return a;
 }
 
+/// Adds a run to its label, and tells a piece of ground which region is on its left: at its leftmost run that
+/// is the region around it, if it is a hole.
 template <class Accumulated>
-void ConnectedComponentsOf<Accumulated>::add_to_label(LabelIndex index, int first, int end) {
-    Label& label = labels_[index];
+void ConnectedComponentsOf<Accumulated>::add_to_label(int index, int end) {
+    const int first = here_[index].first;
+    Label& label = labels_[here_[index].label];
     label.left = minimum(label.left, static_cast<std::int16_t>(first));
     label.right = maximum(label.right, static_cast<std::int16_t>(end - 1));
     label.bottom = static_cast<std::int16_t>(y_);
     label.at_border = label.at_border || y_ == 0 || first == 0 || end == width_;
     // Ground at the border is never a hole, so nobody asks for its moments.
     if (label.is_region || !label.at_border) label.moments.add_run(first, end, y_);
+    if (label.seen_row == y_) return;
+    label.seen_row = static_cast<std::int16_t>(y_);
+    ++seen_labels_;
+    if (!label.is_region && index > 0) label.outer = here_[index - 1].label;
 }
 
-/// Makes the labels of this row final and tells every piece of ground which region is on its left: at its
-/// leftmost run that is the region around it, if it is a hole.
+/// After labels were merged: makes the labels of this row final, and what is on the left of the ground, whose
+/// leftmost run comes last.
 template <class Accumulated>
 void ConnectedComponentsOf<Accumulated>::settle_row() {
-    for (int i = 0; i < here_.count(); ++i) {
+    for (int i = here_.count() - 1; i >= 0; --i) {
         Run& run = here_[i];
+        if (run.label == none) continue;
         run.label = find(run.label);
         Label& label = labels_[run.label];
-        if (label.seen_row == y_) continue;
         label.seen_row = static_cast<std::int16_t>(y_);
-        if (!label.is_region && i > 0) label.outer = here_[i - 1].label;
+        if (!label.is_region && i > 0) label.outer = find(here_[i - 1].label);
     }
 }
 
@@ -277,16 +289,19 @@ template <class Accumulated>
 void ConnectedComponentsOf<Accumulated>::close_labels() {
     for (int i = 0; i < above_.count(); ++i) {
         const LabelIndex index = above_[i].label;
+        if (index == none) continue;
         Label& label = labels_[index];
         if (label.link != index || label.seen_row == y_ || label.bottom < 0) continue;
         if (label.is_region)
-            close_region(index);
+            close_region(label);
         else if (!label.at_border && label.moments.area() >= options_.hole_area_min)
             close_hole(label);
         label.bottom = -1;
+        --open_labels_;
     }
     for (int i = 0; i < above_.count(); ++i) {
         const LabelIndex index = above_[i].label;
+        if (index == none) continue;
         const Label& label = labels_[index];
         if (label.used && (label.link != index || label.seen_row != y_)) free_label(index);
     }
@@ -301,83 +316,40 @@ void ConnectedComponentsOf<Accumulated>::free_label(LabelIndex label) {
 
 template <class Accumulated>
 void ConnectedComponentsOf<Accumulated>::close_hole(const Label& hole) {
-    const LabelIndex around = find(hole.outer);
     const Rectangle box{hole.left, hole.first.y, hole.right - hole.left + 1, hole.bottom - hole.first.y + 1};
-    const Hole entry{hole.moments, box, hole.first, owned_by(around)};
-    Label& region = labels_[around];
-    ++region.holes;
+    Label& region = labels_[find(hole.outer)];
+    ++region.hole_count;
     region.hole_area += hole.moments.area();
-    if (holes_.push(entry) == Status::ok) return;
-    overflow_ = true;
-    Hole* smallest = nullptr;
-    for (Hole& other : holes_)
-        if (smallest == nullptr || other.moments.area() < smallest->moments.area()) smallest = &other;
-    if (smallest != nullptr && smallest->moments.area() < entry.moments.area()) *smallest = entry;
+    lists_.add_hole({hole.moments, box, hole.first, 0}, region.holes, labels_);
 }
 
 template <class Accumulated>
-void ConnectedComponentsOf<Accumulated>::close_region(LabelIndex index) {
-    const Label& label = labels_[index];
+void ConnectedComponentsOf<Accumulated>::close_region(const Label& label) {
     const std::int64_t area = label.moments.area();
-    bool listed = area >= options_.area_min && area <= options_.area_max &&
-                  !(label.at_border && options_.at_border == BorderRegions::drop);
-    int place = regions_.size();
-    if (listed && regions_.full()) {
-        overflow_ = true;
-        place = 0;
-        for (int i = 1; i < regions_.size(); ++i)
-            if (regions_[i].moments.area() < regions_[place].moments.area()) place = i;
-        listed = !regions_.empty() && regions_[place].moments.area() < area;
-        if (listed)
-            for (Hole& hole : holes_)
-                if (hole.region == place) hole.region = dropped;
+    if (area < options_.area_min || area > options_.area_max ||
+        (label.at_border && options_.at_border == BorderRegions::drop)) {
+        lists_.drop_holes(label.holes);
+        return;
     }
-    if (listed) {
-        Region region;
-        region.moments = label.moments;
-        region.box = {label.left, label.first.y, label.right - label.left + 1,
-                      label.bottom - label.first.y + 1};
-        region.first = label.first;
-        region.at_border = label.at_border;
-        region.holes = label.holes;
-        region.hole_area = label.hole_area;
-        region.number = place;
-        if (place == regions_.size())
-            static_cast<void>(regions_.push(region));
-        else
-            regions_[place] = region;
-    }
-    if (label.holes > 0)
-        for (Hole& hole : holes_)
-            if (hole.region == owned_by(index)) hole.region = listed ? place : dropped;
-}
-
-/// Drops the holes of regions that are not listed and puts both lists in order.
-template <class Accumulated>
-void ConnectedComponentsOf<Accumulated>::order_lists() {
-    const auto before = [](Point a, Point b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
-    int kept = 0;
-    for (const Hole& hole : holes_)
-        if (hole.region != dropped) holes_[kept++] = hole;
-    holes_.shrink(kept);
-    sort(regions_.span(), [&](const Region& a, const Region& b) { return before(a.first, b.first); });
-    for (Hole& hole : holes_) {
-        int place = 0;
-        while (regions_[place].number != hole.region) ++place;
-        hole.region = place;
-    }
-    for (int i = 0; i < regions_.size(); ++i) regions_[i].number = i;
-    sort(holes_.span(), [&](const Hole& a, const Hole& b) { return before(a.first, b.first); });
+    Region region;
+    region.moments = label.moments;
+    region.box = {label.left, label.first.y, label.right - label.left + 1, label.bottom - label.first.y + 1};
+    region.first = label.first;
+    region.at_border = label.at_border;
+    region.holes = label.hole_count;
+    region.hole_area = label.hole_area;
+    lists_.add_region(region, label.holes);
 }
 
 template <class Accumulated>
 Status ConnectedComponentsOf<Accumulated>::finish() {
     if (status_ != Status::ok) return status_;
     if (y_ == 0) return fail(Status::empty_image);
-    for (int i = 0; i < above_.count(); ++i) labels_[above_[i].label].at_border = true;
+    for (int i = 0; i < above_.count(); ++i)
+        if (above_[i].label != none) labels_[above_[i].label].at_border = true;
     close_labels();
-    order_lists();
-    status_ = overflow_ ? Status::capacity_exceeded : Status::ok;
+    lists_.order();
+    status_ = lists_.overflow() ? Status::capacity_exceeded : Status::ok;
     return status_;
 }
 

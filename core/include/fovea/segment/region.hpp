@@ -46,6 +46,7 @@ struct ComponentOptions {
     std::int64_t area_min = 1;         ///< pixels; smaller regions are dirt
     std::int64_t area_max = 67092481;  ///< pixels; all of the largest image
     std::int64_t hole_area_min = 1;    ///< pixels; smaller holes are dirt
+    bool find_holes = true;            ///< false: no hole is listed or counted, and the ground takes no time
 };
 
 /// A connected set of non-zero pixels, with the sums over them that Accumulated holds.
