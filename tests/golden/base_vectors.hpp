@@ -87,6 +87,17 @@ inline void base_order(Workspace&, Digest& digest) {
         }
 }
 
+inline void base_nearly_ordered(Workspace&, Digest& digest) {
+    Random random(4);
+    int numbers[200] = {};
+    for (const int spread : {0, 3, 20, 1000}) {
+        int place = 0;
+        for (int& number : numbers) number = 1000 * place++ + 1000 * random.between(-spread, spread);
+        sort_nearly_ordered(Span<int>(numbers), [](int a, int b) { return a < b; });
+        digest.add(Span<const int>(numbers));
+    }
+}
+
 inline void base_containers(Workspace& work, Digest& digest) {
     Arena arena(work.scratch_span().first(100));
     const Span<std::uint8_t> bytes = arena.take<std::uint8_t>(3);

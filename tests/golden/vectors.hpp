@@ -39,6 +39,7 @@ struct Vector {
 inline constexpr Vector vectors[] = {
     {"base/containers", base_containers},
     {"base/crc32", base_crc32},
+    {"base/nearly_ordered", base_nearly_ordered},
     {"base/order", base_order},
     {"base/random", base_random},
     {"number/angle_and_fixed", number_angle},
