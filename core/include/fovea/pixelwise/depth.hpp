@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include <fovea/base/span.hpp>
@@ -11,10 +12,15 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/simd/backend.hpp>
+#include <fovea/simd/halves.hpp>
+#include <fovea/simd/isa.hpp>
 
 namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
+
+inline namespace FOVEA_ISA {
 
 /// The same numbers in wider pixels: Gray16, Gradient16 or Sum32.
 ///
@@ -43,7 +49,7 @@ inline Status narrow_about_128(ImageView<const Gradient16> src, int shift, Image
 
 // ---- Implementation ---------------------------------------------------------------
 
-namespace detail {
+namespace kernels {
 
 template <class Pixel>
 inline constexpr bool is_wide_pixel =
@@ -60,6 +66,43 @@ Gray8 narrowed(Wide value, int shift, Wide low, Wide high, Wide offset) {
     return static_cast<Gray8>(static_cast<Wide>(clamp(quotient, low, high) + offset));
 }
 
+#if FOVEA_BYTES >= 16
+template <class Pixel>
+using VectorOf = std::conditional_t<std::is_signed_v<Pixel>, simd::RawSigned, simd::RawWords>;
+
+/// narrowed() of a vector of pixels of 16 bits.
+template <class Wide>
+[[gnu::always_inline]] inline simd::RawWords narrowed_words(const Wide* from, int shift, Wide low, Wide high,
+                                                            Wide offset) {
+    using Vector = VectorOf<Wide>;
+    const Vector least = Vector{} + low;
+    const Vector most = Vector{} + high;
+    Vector values;
+    std::memcpy(&values, from, sizeof values);
+    Vector quotient = values >> shift;
+    if (shift > 0) quotient += (values >> (shift - 1)) & static_cast<Wide>(1);
+    quotient = quotient > least ? quotient : least;
+    quotient = quotient < most ? quotient : most;
+    return simd::bits_as<simd::RawWords>(quotient + offset);
+}
+#endif
+
+/// Narrows what vectors can of a row, and answers how much that was.
+template <class Wide>
+int narrow_in_vectors([[maybe_unused]] const Wide* from, [[maybe_unused]] int width,
+                      [[maybe_unused]] int shift, [[maybe_unused]] Wide low, [[maybe_unused]] Wide high,
+                      [[maybe_unused]] Wide offset, [[maybe_unused]] Gray8* to) {
+    int x = 0;
+#if FOVEA_BYTES >= 16
+    if constexpr (sizeof(Wide) == 2)
+        for (; x + simd::lanes <= width; x += simd::lanes)
+            simd::narrowed(narrowed_words(from + x, shift, low, high, offset),
+                           narrowed_words(from + x + simd::half_lanes, shift, low, high, offset))
+                .store(to + x);
+#endif
+    return x;
+}
+
 template <class Wide>
 Status narrow_frame(ImageView<const Wide> src, int shift, int offset, ImageView<Gray8> dst) {
     static_assert(is_wide_pixel<Wide>, "narrow() takes Gray16, Gradient16 and Sum32");
@@ -72,17 +115,18 @@ Status narrow_frame(ImageView<const Wide> src, int shift, int offset, ImageView<
     for (int y = 0; y < src.height(); ++y) {
         const Wide* from = src.row(y);
         Gray8* to = dst.row(y);
-        for (int x = 0; x < src.width(); ++x)
+        for (int x = narrow_in_vectors(from, src.width(), shift, low, high, static_cast<Wide>(offset), to);
+             x < src.width(); ++x)
             to[x] = narrowed(from[x], shift, low, high, static_cast<Wide>(offset));
     }
     return Status::ok;
 }
 
-}  // namespace detail
+}  // namespace kernels
 
 template <class Wide>
 Status widen(ImageView<const Gray8> src, ImageView<Wide> dst) {
-    static_assert(detail::is_wide_pixel<Wide>, "widen() makes Gray16, Gradient16 and Sum32");
+    static_assert(kernels::is_wide_pixel<Wide>, "widen() makes Gray16, Gradient16 and Sum32");
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
     for (int y = 0; y < src.height(); ++y) {
@@ -95,11 +139,12 @@ Status widen(ImageView<const Gray8> src, ImageView<Wide> dst) {
 
 template <class Wide>
 Status narrow(ImageView<const Wide> src, int shift, ImageView<Gray8> dst) {
-    return detail::narrow_frame(src, shift, 0, dst);
+    return kernels::narrow_frame(src, shift, 0, dst);
 }
 
 inline Status narrow_about_128(ImageView<const Gradient16> src, int shift, ImageView<Gray8> dst) {
-    return detail::narrow_frame(src, shift, 128, dst);
+    return kernels::narrow_frame(src, shift, 128, dst);
 }
 
+}  // namespace FOVEA_ISA
 }  // namespace fovea
