@@ -44,13 +44,15 @@ public:
 
     /// Adds the pixels of a row that are not below the floors.
     constexpr void add_row(const Hsv888* row, int width) {
-        for (int x = 0; x < width; ++x) {
-            const Hsv888 pixel = row[x];
-            // Added, so that no branch is guessed wrong.
-            const bool counts = pixel.saturation >= floors_.saturation && pixel.value >= floors_.value;
-            const int bin = hue_bin(pixel.hue) * SaturationBins + saturation_bin(pixel.saturation);
-            counts_[static_cast<std::size_t>(x) % tables][bin] += counts ? 1 : 0;
-        }
+        int x = 0;
+        if constexpr (tables == 4)
+            for (; x + 4 <= width; x += 4) {
+                count(row[x], counts_[0]);
+                count(row[x + 1], counts_[1]);
+                count(row[x + 2], counts_[2]);
+                count(row[x + 3], counts_[3]);
+            }
+        for (; x < width; ++x) count(row[x], counts_[0]);
     }
     static constexpr int hue_bin(Gray8 hue) { return minimum<int>(hue, 179) * HueBins / 180; }
     static constexpr int saturation_bin(Gray8 saturation) { return saturation * SaturationBins / 256; }
@@ -83,6 +85,25 @@ private:
     // As in Histogram: colours come in patches, and a pixel need not wait until its like before it is
     // counted.
     static constexpr std::size_t tables = sizeof(void*) >= 8 && HueBins * SaturationBins <= 1024 ? 4 : 1;
+
+    /// The first bin of every hue.
+    struct FirstBins {
+        std::uint16_t of[256]{};
+        constexpr FirstBins() {
+            for (int hue = 0; hue < 256; ++hue)
+                of[hue] = static_cast<std::uint16_t>(hue_bin(static_cast<Gray8>(hue)) * SaturationBins);
+        }
+    };
+    static constexpr FirstBins first_bins{};
+    using Table = std::uint32_t[static_cast<std::size_t>(HueBins) * SaturationBins];
+
+    constexpr void count(Hsv888 pixel, Table& table) const {
+        // Added, so that no branch is guessed wrong.
+        const int counts = static_cast<int>(pixel.saturation >= floors_.saturation) &
+                           static_cast<int>(pixel.value >= floors_.value);
+        table[first_bins.of[pixel.hue] + saturation_bin(pixel.saturation)] +=
+            static_cast<std::uint32_t>(counts);
+    }
 
     ColourFloors floors_;
     std::uint32_t counts_[tables][static_cast<std::size_t>(HueBins) * SaturationBins]{};
