@@ -66,6 +66,14 @@ inline Result<RegionOf<FirstMoments>> flood_fill(ImageView<Gray8> image, Point s
 
 namespace detail {
 
+/// The top bit of every byte of a that is at least that of b.
+inline PixelWord bytes_at_least(PixelWord a, PixelWord b) {
+    // Of seven bits no difference borrows; the eighth ones decide where they differ.
+    const PixelWord lower = (a | ~low_bits) - (b & low_bits);
+    return ((a & ~b) | (~(a ^ b) & lower)) & ~low_bits;
+}
+inline PixelWord all_pixels(Gray8 level) { return (~PixelWord{0} / 255) * level; }
+
 /// A row of the image and of the mask of what is filled, and the levels that belong.
 struct GrowingRow {
     const Gray8* src;
@@ -75,6 +83,13 @@ struct GrowingRow {
 
     bool filled(int x) const { return mask[x] != 0; }
     bool belongs(int x) const { return src[x] >= low && src[x] <= high && mask[x] == 0; }
+    /// True if all of word_pixels pixels from x on belong.
+    bool word_belongs(int x) const {
+        const PixelWord levels = load_pixels(src + x);
+        const PixelWord inside =
+            bytes_at_least(levels, all_pixels(low)) & bytes_at_least(all_pixels(high), levels);
+        return inside == ~low_bits && load_pixels(mask + x) == 0;
+    }
 };
 
 /// Fills run after run; row_at(y) is a GrowingRow.
@@ -118,7 +133,9 @@ private:
     int fill_run(GrowingRow row, int x, int y) {
         int first = x;
         int last = x;
+        while (first >= word_pixels && row.word_belongs(first - word_pixels)) first -= word_pixels;
         while (first > 0 && row.belongs(first - 1)) --first;
+        while (last + word_pixels < size_.width && row.word_belongs(last + 1)) last += word_pixels;
         while (last + 1 < size_.width && row.belongs(last + 1)) ++last;
         std::memset(row.mask + first, 255, static_cast<std::size_t>(last - first) + 1);
         moments_.add_run(first, last + 1, y);
@@ -205,9 +222,12 @@ inline Result<RegionOf<FirstMoments>> flood_fill(ImageView<Gray8> image, Point s
     const Gray8 old = image(seed.x, seed.y);
     const auto region = grow_region(image, seed, old, old, connectivity, rest, mask);
     if (!region) return region;
-    for (int y = region->box.y; y <= region->box.bottom(); ++y)
-        for (int x = region->box.x; x <= region->box.right(); ++x)
-            if (mask(x, y) != 0) image(x, y) = value;
+    for (int y = region->box.y; y <= region->box.bottom(); ++y) {
+        const Gray8* filled = mask.row(y);
+        Gray8* row = image.row(y);
+        // Every pixel is written, so that many are at once.
+        for (int x = region->box.x; x <= region->box.right(); ++x) row[x] = filled[x] != 0 ? value : row[x];
+    }
     return region;
 }
 

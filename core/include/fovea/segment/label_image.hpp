@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <fovea/base/arena.hpp>
 #include <fovea/base/order.hpp>
@@ -85,6 +86,16 @@ private:
     std::ptrdiff_t count_ = 0;
 };
 
+/// Writes first to end - 1, and perhaps some pixels behind them, which are written later.
+inline void write_label(int first, int end, int width, Label16 label, Label16* out) {
+    constexpr int step = 8;
+    Label16 block[step];
+    for (Label16& one : block) one = label;
+    int x = first;
+    for (; x < end && x + step <= width; x += step) std::memcpy(out + x, block, sizeof block);
+    for (; x < end; ++x) out[x] = label;
+}
+
 }  // namespace detail
 
 inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity connectivity,
@@ -113,10 +124,11 @@ inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity c
             if (here.is_region(i)) {
                 label = no_label;
                 while (k < above.count() && above.end(k) + reach <= run.first) ++k;
-                for (int n = k; n < above.count() && above[n].first < end + reach; ++n)
-                    if (above.is_region(n))
-                        label = label == no_label ? table.find(above[n].label)
-                                                  : table.merge(label, above[n].label);
+                // Regions and ground take turns.
+                int n = k < above.count() && !above.is_region(k) ? k + 1 : k;
+                for (; n < above.count() && above[n].first < end + reach; n += 2)
+                    label =
+                        label == no_label ? table.find(above[n].label) : table.merge(label, above[n].label);
                 if (label == no_label) label = table.add();
                 if (label == no_label) return Status::capacity_exceeded;
             }
@@ -130,12 +142,10 @@ inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity c
     for (int y = 0; y < src.height(); ++y) {
         static_cast<void>(here.split(src.row(y), width));
         Label16* out = dst.row(y);
-        for (int i = 0; i < here.count(); ++i) {
-            const int first = here[i].first;
-            const Label16 label = here.is_region(i) ? table[out[first]] : Label16{0};
-            const int end = here.end(i);
-            for (int x = first; x < end; ++x) out[x] = label;
-        }
+        for (int i = 0; i < here.count(); ++i)
+            here[i].label = here.is_region(i) ? table[out[here[i].first]] : Label16{0};
+        for (int i = 0; i < here.count(); ++i)
+            detail::write_label(here[i].first, here.end(i), width, here[i].label, out);
     }
     return regions;
 }
