@@ -30,26 +30,30 @@ public:
     using Input = Gray8;
     using Output = Gray8;
 
-    /// A line, and a row of the erosion.
-    static constexpr std::int64_t scratch(int width) {
-        return byte_line_scratch(width) + std::int64_t{width};
+    /// That of both, and a row of the erosion.
+    static constexpr std::int64_t scratch(Size element, int width) {
+        return 2 * ExtremeRow<Lowest>::scratch(element, width) + std::int64_t{width};
     }
 
     GradientRow() = default;
     GradientRow(Size element, Span<std::uint8_t> bytes, int width)
         : lowest_(element, bytes, width),
-          highest_(element, bytes, width),
-          eroded_(bytes.data() + byte_line_scratch(width)) {}
+          highest_(element, bytes.from(part(element, width)), width),
+          eroded_(bytes.data() + 2 * part(element, width)) {}
 
     int rows() const { return lowest_.rows(); }
 
-    void operator()(const RowWindow<Gray8>& window, Gray8* dst) {
-        lowest_(window, eroded_);
-        highest_(window, dst);
+    void operator()(const RowWindow<Gray8>& window, bool follows, Gray8* dst) {
+        lowest_(window, follows, eroded_);
+        highest_(window, follows, dst);
         difference_row(dst, eroded_, window.width(), dst);
     }
 
 private:
+    static constexpr std::ptrdiff_t part(Size element, int width) {
+        return static_cast<std::ptrdiff_t>(ExtremeRow<Lowest>::scratch(element, width));
+    }
+
     ExtremeRow<Lowest> lowest_;
     ExtremeRow<Highest> highest_;
     Gray8* eroded_ = nullptr;
@@ -72,7 +76,7 @@ struct ExtremeStage {
 
     constexpr bool valid() const { return kernels::is_rectangle(element); }
     constexpr int rows() const { return element.height; }
-    static constexpr std::int64_t scratch(int width) { return byte_line_scratch(width); }
+    constexpr std::int64_t scratch(int width) const { return Kernel::scratch(element, width); }
     static constexpr Border border(Border) { return Border::replicate; }
     Kernel kernel(Border, Span<std::uint8_t> bytes, int width) const { return Kernel(element, bytes, width); }
 };
@@ -100,7 +104,7 @@ struct morphological_gradient {
 
     constexpr bool valid() const { return kernels::is_rectangle(element); }
     constexpr int rows() const { return element.height; }
-    static constexpr std::int64_t scratch(int width) { return Kernel::scratch(width); }
+    constexpr std::int64_t scratch(int width) const { return Kernel::scratch(element, width); }
     static constexpr Border border(Border) { return Border::replicate; }
     Kernel kernel(Border, Span<std::uint8_t> bytes, int width) const { return Kernel(element, bytes, width); }
 };
@@ -137,8 +141,7 @@ struct black_hat {
 // ---- With an element of any shape -------------------------------------------------
 
 /// The extreme in the places of an element. Only pixels of the image count whatever the stream's border is,
-/// as in erode() and dilate() with an element. Its lines are made anew for every row, so that in a frame at
-/// hand those functions are quicker.
+/// as in erode() and dilate() with an element.
 template <class Extreme>
 struct ShapedStage {
     using Kernel = kernels::ShapedRow<Extreme>;

@@ -224,7 +224,8 @@ private:
 };
 
 /// The row kernel of erosion and dilation with an element, for rows that come one at a time. Rows beyond the
-/// image hold Extreme::neutral.
+/// image hold Extreme::neutral. follows says that the window is one row below that of the call before: then
+/// its lowest row alone is new.
 template <class Extreme>
 class ShapedRow {
 public:
@@ -237,13 +238,17 @@ public:
 
     int rows() const { return lines_.height(); }
 
-    void operator()(const RowWindow<Gray8>& window, Gray8* dst) {
-        for (int i = 0; i < window.count(); ++i) lines_.load(window[i], i);
-        lines_.make_row([](int i) { return i; }, dst);
+    void operator()(const RowWindow<Gray8>& window, bool follows, Gray8* dst) {
+        const int height = window.count();
+        first_ = follows ? (first_ + 1) % height : 0;
+        const auto place_of = [&](int i) { return (first_ + i) % height; };
+        for (int i = follows ? height - 1 : 0; i < height; ++i) lines_.load(window[i], place_of(i));
+        lines_.make_row(place_of, dst);
     }
 
 private:
     ShapedLines<Extreme> lines_;
+    int first_ = 0;  ///< where the highest row of the window is
 };
 
 inline Status check_shape(ImageView<const Gray8> src, const StructuringElement& element, std::int64_t needed,

@@ -63,6 +63,7 @@ public:
         next_in_ = wanted.first;
         next_out_ = out.first;
         last_out_ = out.last;
+        follows_ = false;
         return Status::ok;
     }
     Input* slot() { return own_row(next_in_); }
@@ -87,7 +88,12 @@ private:
                 const int y = border_index(border_, next_out_ - reach + i, height_);
                 window[i] = y == no_index ? outside_ : ring_[place(y)];
             }
-            kernel_(RowWindow<Input>(window, stage_.rows(), width_), next_.slot());
+            const RowWindow<Input> rows(window, stage_.rows(), width_);
+            if constexpr (keeps_rows_v<typename Stage::Kernel>)
+                kernel_(rows, follows_, next_.slot());
+            else
+                kernel_(rows, next_.slot());
+            follows_ = true;
             ++next_out_;
             next_.pushed();
         }
@@ -102,6 +108,7 @@ private:
     int next_in_ = 0;
     int next_out_ = 0;
     int last_out_ = -1;
+    bool follows_ = false;
 };
 
 /// A point stage: works in the row of the next stage where the pixel is the same.
