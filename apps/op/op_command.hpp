@@ -25,7 +25,7 @@ inline Command op_help() {
             {{"json", "", "one line of JSON for each step"}},
             "PIPELINE is one operator, or several with | between, in quotes:\n"
             "  fovea op sobel_magnitude part.jpg edges.png\n"
-            "  fovea op 'gaussian_5x5 | threshold:40 | opening:3' part.jpg out.png\n"
+            "  fovea op 'gaussian_5x5 | otsu | open:3' part.jpg out.png\n"
             "  fovea op 'box:width=9,height=3,border=zero' part.jpg out.png\n"
             "The beginning of a name does where it is the only one. `fovea ops` lists them all.\n"
             "SECOND is for operators of two pictures, such as absolute_difference.\n"

@@ -33,8 +33,18 @@ inline std::string pixels_text(const Operator& op) {
     return text + " to " + describe(op.output);
 }
 
+/// "opening (open)": a name, and the shorter one where there is.
+inline std::string names_of(const Operator& op) {
+    return op.name + (op.alias == nullptr ? std::string() : std::string(" (") + op.alias + ")");
+}
+
+inline std::string listed_line(const Operator& op) {
+    const std::string names = names_of(op);
+    return "  " + names + std::string(names.size() < 24 ? 24 - names.size() : 1, ' ') + op.summary + "\n";
+}
+
 inline std::string told(const Operator& op) {
-    std::string text = std::string(op.name) + ": " + op.summary + "\n  " + pixels_text(op);
+    std::string text = names_of(op) + ": " + op.summary + "\n  " + pixels_text(op);
     text += op.book[0] == '\0' ? "\n" : std::string("; book ") + op.book + "\n";
     for (int i = 0; i < op.parameter_count(); ++i) {
         const OperatorParameter& parameter = op.parameters[i];
@@ -49,6 +59,7 @@ inline std::string told(const Operator& op) {
 
 inline std::string json_operator(const std::string& family, const Operator& op) {
     std::string text = "{\"schema\":1,\"op\":" + json_string(op.name) + ",\"family\":" + json_string(family) +
+                       (op.alias == nullptr ? "" : ",\"alias\":" + json_string(op.alias)) +
                        ",\"summary\":" + json_string(op.summary) + ",\"inputs\":[" +
                        json_string(describe(op.inputs[0]));
     if (op.input_count() == 2) text += "," + json_string(describe(op.inputs[1]));
@@ -83,8 +94,9 @@ inline std::string markdown_row(const Operator& op) {
     for (int i = 0; i < op.parameter_count(); ++i)
         values += (i == 0 ? "" : "; ") + std::string("`") + op.parameters[i].name + "` " +
                   range_text(op.parameters[i]);
-    return std::string("| `") + op.name + "` | " + cell(op.summary) + " | " + pixels_text(op) + " | " +
-           cell(values) + " | " + op.book + " |\n";
+    return std::string("| `") + op.name + "`" +
+           (op.alias == nullptr ? std::string() : std::string(", `") + op.alias + "`") + " | " +
+           cell(op.summary) + " | " + pixels_text(op) + " | " + cell(values) + " | " + op.book + " |\n";
 }
 
 }  // namespace detail
@@ -134,10 +146,7 @@ ExitCode ops_command(Io& io, const std::vector<std::string>& words) {
             else if (named)
                 io.print(detail::told(op));
             else
-                io.print("  " + std::string(op.name) +
-                         std::string(std::string(op.name).size() < 24 ? 24 - std::string(op.name).size() : 1,
-                                     ' ') +
-                         op.summary + "\n");
+                io.print(detail::listed_line(op));
         }
     }
     return exit_ok;

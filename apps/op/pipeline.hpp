@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Pipelines of the tool: "gaussian_5x5 | threshold:40 | opening:3", operators of the catalogue one after the
+// Pipelines of the tool: "gaussian_5x5 | otsu | open:3", operators of the catalogue one after the
 // other.
 #pragma once
 
@@ -67,13 +67,14 @@ inline std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
 }
 
-/// The operator that a word means: its name, or the beginning of one operator's name alone.
+/// The operator that a word means: its name or alias, or the beginning of one operator's name alone.
 inline const Operator* operator_meant(const std::string& word, std::string& problem) {
     if (const Operator* op = find_operator(all_operators(), word.c_str())) return op;
     std::vector<std::string> names;
     std::vector<const Operator*> begun;
     for (const OperatorFamily& family : all_operators())
         for (const Operator& op : family.operators) {
+            if (op.alias != nullptr) names.push_back(op.alias);
             names.push_back(op.name);
             if (!word.empty() && names.back().compare(0, word.size(), word) == 0) begun.push_back(&op);
         }

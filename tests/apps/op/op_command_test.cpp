@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <fovea/filter/gaussian.hpp>
 #include <fovea/filter/sobel.hpp>
 #include <fovea/morphology/morphology.hpp>
 #include <fovea/pixelwise/threshold.hpp>
+#include <fovea/statistics/otsu_threshold.hpp>
 
 #include <op/op_command.hpp>
 #include <op/ops_command.hpp>
@@ -69,6 +71,21 @@ TEST_F(OpCommand, AppliesAPipelineWithValuesByPlaceAndByName) {
     ASSERT_EQ(erode(a.view(), {3, 5}, memory(), b.view()), Status::ok);
     ASSERT_EQ(opening(b.view(), {3, 3}, memory(), b.view()), Status::ok);
     EXPECT_EQ(written("out.pgm").pixels, b.pixels);
+}
+
+TEST_F(OpCommand, KnowsShortNames) {
+    ASSERT_EQ(run({"gaussian_5x5 | otsu | open:3 | close:5,3", "in.png", "out.png"}), apps::exit_ok);
+    Picture<Gray8> a(source.size), b(source.size);
+    ASSERT_EQ(gaussian_5x5(source.view(), Border::replicate, memory(), a.view()), Status::ok);
+    ASSERT_EQ(otsu_threshold(a.view(), memory(), b.view()), Status::ok);
+    ASSERT_EQ(opening(b.view(), {3, 3}, memory(), b.view()), Status::ok);
+    ASSERT_EQ(closing(b.view(), {5, 3}, memory(), b.view()), Status::ok);
+    EXPECT_EQ(written("out.png").pixels, b.pixels);
+}
+
+TEST_F(OpCommand, SaysThatAPictureHasOneLevelAlone) {
+    refuses({"threshold:255 | otsu", "in.png", "out.png"},
+            "fovea op: otsu_threshold: the data do not determine an answer (23x11)");
 }
 
 TEST_F(OpCommand, TakesTheWidthForTheHeightWhereNoneIsGiven) {
@@ -170,6 +187,12 @@ TEST_F(OpsCommand, TellsOfOneOperator) {
               "  gray8 to gray8; book 2.7.2\n"
               "  width: columns of the element, odd; 1, 3 ... 63; 3 if not given\n"
               "  height: rows of the element, odd; 1, 3 ... 63; as width if not given\n");
+    ASSERT_EQ(run({"close"}), apps::exit_ok);
+    EXPECT_EQ(io.out.substr(0, io.out.find('\n')),
+              "closing (close): dilation, then erosion: removes what is dark and smaller than the rectangle");
+    ASSERT_EQ(run({"--json", "otsu"}), apps::exit_ok);
+    EXPECT_NE(io.out.find(R"("op":"otsu_threshold","family":"statistics","alias":"otsu",)"),
+              std::string::npos);
     EXPECT_EQ(run({"erod_"}), apps::exit_failed);
     EXPECT_EQ(io.errors(),
               "fovea ops: no operator is called 'erod_'; did you mean erode?; `fovea ops` lists them\n");

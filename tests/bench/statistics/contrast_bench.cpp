@@ -34,6 +34,10 @@ const bool added = [] {
     add_operator(1304, "normalize_colour", Sizes::vga, {}, FOVEA_OPENCV(equalize_channels(in[0], out)));
     add_operator(1305, "clahe", Sizes::vga_and_full_hd, {8, 8, 200}, FOVEA_OPENCV(clahe_of(in[0], out)));
     add_operator(1306, "auto_scale_gray16", Sizes::vga, {}, FOVEA_OPENCV(stretch(in[0], out)));
+    add_operator(1307, "otsu_threshold", Sizes::vga_and_full_hd, {},
+                 FOVEA_OPENCV(cv::threshold(in[0], out, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU)));
+    add_operator(1308, "otsu_threshold_inverse", Sizes::vga, {},
+                 FOVEA_OPENCV(cv::threshold(in[0], out, 0, 255, cv::THRESH_BINARY_INV | cv::THRESH_OTSU)));
     add_operator(1310, "integral_image", Sizes::vga_and_full_hd, {},
                  FOVEA_OPENCV(cv::integral(in[0], out, CV_32S)));
     add_operator(1311, "integral_of_binary", Sizes::vga, {}, Peer());

@@ -3,6 +3,8 @@
 // Several operators in one pass, beside OpenCV's calls one after the other.
 #include <fovea/filter/gaussian.hpp>
 #include <fovea/filter/sobel.hpp>
+#include <fovea/morphology/morphology_stages.hpp>
+#include <fovea/pixelwise/copy.hpp>
 #include <fovea/pixelwise/point_stages.hpp>
 #include <fovea/stream/stream.hpp>
 
@@ -26,6 +28,15 @@ void opencv_edges(const cv::Mat& src, cv::Mat& dst) {
     cv::add(a, b, sum);
     cv::threshold(sum, dst, 39, 255, cv::THRESH_BINARY);
 }
+
+/// What is not in the background, without specks.
+void opencv_foreground(const cv::Mat& src, const cv::Mat& background, cv::Mat& dst) {
+    static cv::Mat difference, level;
+    static const cv::Mat element = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
+    cv::absdiff(src, background, difference);
+    cv::threshold(difference, level, 39, 255, cv::THRESH_BINARY);
+    cv::morphologyEx(level, dst, cv::MORPH_OPEN, element);
+}
 #endif
 
 const bool edges_added =
@@ -38,6 +49,22 @@ const bool edges_added =
         row.ours([&] { consume(program.run(src.view(), Border::replicate, span_of(scratch))); });
 #if defined(FOVEA_HAVE_OPENCV)
         row.peer("OpenCV", [a = mat(src), b = mat(dst)]() mutable { opencv_edges(a, b); });
+#endif
+    });
+
+const bool foreground_added =
+    add(251, "absolute_difference, threshold, opening 3x3", Sizes::vga_and_full_hd, [](Row& row) {
+        auto& src = row.keep(part(row.size()));
+        auto& background = row.keep(Picture<Gray8>(row.size()));
+        static_cast<void>(fill(Gray8{200}, background.view()));
+        auto& dst = row.keep(Picture<Gray8>(row.size()));
+        auto& program = row.keep(stream(stages::absolute_difference{background.view()}, stages::threshold{40},
+                                        stages::opening{{3, 3}}, into(dst.view())));
+        auto& scratch = row.keep(bytes(program.scratch(row.size().width)));
+        row.ours([&] { consume(program.run(src.view(), Border::replicate, span_of(scratch))); });
+#if defined(FOVEA_HAVE_OPENCV)
+        row.peer("OpenCV",
+                 [a = mat(src), b = mat(background), c = mat(dst)]() mutable { opencv_foreground(a, b, c); });
 #endif
     });
 

@@ -72,5 +72,19 @@ TEST(HueSaturationHistogram, StaysWhenThereIsNoImage) {
     EXPECT_EQ(histogram.total(), 1u);
 }
 
+TEST(HueSaturationHistogram, OfRowsAndStripsCountsTheSame) {
+    Random random(9);
+    GuardedImage<Hsv888> src({37, 9});
+    src.fill(random);
+    HueSaturationHistogram<18, 8> whole, upper, lower;
+    ASSERT_EQ(histogram_of(src.view(), whole), Status::ok);
+    upper.add_row(src.view().row(0), 37);
+    ASSERT_EQ(upper.begin({37, 9}), Status::ok);
+    EXPECT_EQ(upper.total(), 0u);
+    for (int y = 0; y < 9; ++y) (y < 4 ? upper : lower).add_row(src.view().row(y), 37, y);
+    upper.merge(lower);
+    for (int bin = 0; bin < whole.size(); ++bin) ASSERT_EQ(upper[bin], whole[bin]);
+}
+
 }  // namespace
 }  // namespace fovea::test

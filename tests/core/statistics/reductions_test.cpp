@@ -109,5 +109,63 @@ TEST(Reductions, RefuseSidesThatAreTooLong) {
     EXPECT_EQ(mean_and_variance(ImageView<const Gray8>()).status(), Status::empty_image);
 }
 
+template <class Pixel>
+void expect_same_of_rows(std::uint32_t seed) {
+    Random random(seed);
+    for (const Size size : test_sizes()) {
+        GuardedImage<Pixel> image(size);
+        image.fill(random);
+        ExtremesAccumulator<Pixel> extremes[2];
+        SumAccumulator<Pixel> sums[2];
+        for (int i = 0; i < 2; ++i) {
+            // What was gathered before is forgotten.
+            extremes[i].add_row(image.view().row(0), size.width, 0);
+            sums[i].add_row(image.view().row(0), size.width, 0);
+            ASSERT_EQ(extremes[i].begin(size), Status::ok);
+            ASSERT_EQ(sums[i].begin(size), Status::ok);
+            EXPECT_EQ(extremes[i].result().status(), Status::empty_image);
+            EXPECT_EQ(sums[i].result().status(), Status::empty_image);
+        }
+        for (int y = 0; y < size.height; ++y) {
+            const int strip = y < size.height / 2 ? 0 : 1;
+            extremes[strip].add_row(image.view().row(y), size.width, y);
+            sums[strip].add_row(image.view().row(y), size.width, y);
+        }
+        extremes[0].merge(extremes[1]);
+        sums[0].merge(sums[1]);
+        extremes[0].merge(ExtremesAccumulator<Pixel>());
+        EXPECT_EQ(extremes[0].result()->lowest, extremes_of(image.view())->lowest);
+        EXPECT_EQ(extremes[0].result()->highest, extremes_of(image.view())->highest);
+        EXPECT_EQ(*sums[0].result(), *sum_of(image.view()));
+    }
+}
+
+TEST(ReductionAccumulators, GiveTheSameOfRowsInStrips) {
+    expect_same_of_rows<Gray8>(1);
+    expect_same_of_rows<Gray16>(2);
+    expect_same_of_rows<Gradient16>(3);
+    expect_same_of_rows<Sum32>(4);
+    Random random(5);
+    for (const Size size : test_sizes()) {
+        GuardedImage<Gray8> image(size);
+        image.fill(random);
+        MeanAndVarianceAccumulator upper, lower;
+        ASSERT_EQ(upper.begin(size), Status::ok);
+        EXPECT_EQ(upper.result().status(), Status::empty_image);
+        for (int y = 0; y < size.height; ++y)
+            (y < size.height / 2 ? upper : lower).add_row(image.view().row(y), size.width, y);
+        upper.merge(lower);
+        const Result<MeanAndVariance> made = upper.result();
+        const Result<MeanAndVariance> expected = mean_and_variance(image.view());
+        EXPECT_EQ(made->mean, expected->mean);
+        EXPECT_EQ(made->variance, expected->variance);
+    }
+}
+
+TEST(ReductionAccumulators, RefuseSidesThatAreTooLong) {
+    EXPECT_EQ(SumAccumulator<Gray8>().begin({1, 40000}), Status::image_too_large);
+    EXPECT_EQ(MeanAndVarianceAccumulator().begin({40000, 1}), Status::image_too_large);
+}
+
 }  // namespace
 }  // namespace fovea::test

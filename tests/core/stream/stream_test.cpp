@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Streams against the whole-frame functions of their stages, one after the other.
+// Streams: accumulators, errors and memory. Pipelines drawn by lot are in random_streams_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,7 +18,10 @@
 #include <fovea/image/image_storage.hpp>
 #include <fovea/morphology/morphology.hpp>
 #include <fovea/morphology/morphology_stages.hpp>
+#include <fovea/morphology/structuring_element.hpp>
+#include <fovea/pixelwise/colour_stages.hpp>
 #include <fovea/pixelwise/point_stages.hpp>
+#include <fovea/segment/adaptive_threshold.hpp>
 #include <fovea/stream/stream.hpp>
 #include <support/guarded_image.hpp>
 
@@ -33,126 +35,7 @@ using Bytes = std::vector<std::uint8_t>;
 Scratch span_of(Bytes& bytes) { return {bytes.data(), static_cast<std::ptrdiff_t>(bytes.size())}; }
 Bytes bytes_of(std::int64_t count) { return Bytes(static_cast<std::size_t>(count), 0xee); }
 
-// ---- Whole frames -------------------------------------------------------------------------
-
-/// A stage of gray pixels and the function that does the same with a frame.
-struct Smooth {
-    static constexpr auto stage = stages::gaussian_5x5;
-    static Status frame(View src, Border b, Scratch s, ImageView<Gray8> dst) {
-        return gaussian_5x5(src, b, s, dst);
-    }
-};
-struct Middle {
-    static constexpr auto stage = stages::median_3x3;
-    static Status frame(View src, Border b, Scratch s, ImageView<Gray8> dst) {
-        return median_3x3(src, b, s, dst);
-    }
-};
-struct Mean {
-    static constexpr stages::box stage{{7, 9}};
-    static Status frame(View src, Border b, Scratch s, ImageView<Gray8> dst) {
-        return box(src, {7, 9}, b, s, dst);
-    }
-};
-struct Edges {
-    static constexpr auto stage = stages::sobel_magnitude;
-    static Status frame(View src, Border b, Scratch s, ImageView<Gray8> dst) {
-        return sobel_magnitude(src, b, s, dst);
-    }
-};
-struct Shrunk {
-    static constexpr stages::erode stage{{3, 5}};
-    static Status frame(View src, Border, Scratch s, ImageView<Gray8> dst) {
-        return erode(src, {3, 5}, s, dst);
-    }
-};
-struct Binary {
-    static constexpr stages::threshold stage{100};
-    static Status frame(View src, Border, Scratch, ImageView<Gray8> dst) { return threshold(src, 100, dst); }
-};
-using AllParts = std::tuple<Smooth, Middle, Mean, Edges, Shrunk, Binary>;
-
-template <class... Parts>
-void whole_frames(GuardedImage<Gray8> image, Border border, std::vector<GuardedImage<Gray8>>& steps) {
-    Bytes scratch = bytes_of(1 << 16);
-    const auto step = [&](auto frame) {
-        GuardedImage<Gray8> dst(image.view().size());
-        ASSERT_EQ(frame(std::as_const(image).view(), border, span_of(scratch), dst.view()), Status::ok);
-        steps.push_back(dst);
-        image = dst;
-    };
-    (step(Parts::frame), ...);
-}
-
-/// The pipeline whole, by strips, and row by row from one buffer that is written over.
-template <class First, class Second, class Third>
-void expect_same(std::uint32_t seed) {
-    for (const Size size : {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{5, 4}, Size{33, 7}, Size{67, 23}})
-        for (const Border border : {Border::replicate, Border::reflect_101, Border::zero}) {
-            Random random(seed);
-            GuardedImage<Gray8> src(size), out(size), first(size), second(size);
-            src.fill(random);
-            std::vector<GuardedImage<Gray8>> steps;
-            whole_frames<First, Second, Third>(src, border, steps);
-
-            // One type of stream, whose three images show what every stage made.
-            const auto make = [](GuardedImage<Gray8>& a, GuardedImage<Gray8>& b, GuardedImage<Gray8>& c) {
-                return stream(First::stage, tap(a.view()), Second::stage, tap(b.view()), Third::stage,
-                              into(c.view()));
-            };
-            const auto expect_steps = [&] {
-                EXPECT_TRUE(equal(first.view(), steps[0].view())) << size.width << "x" << size.height;
-                EXPECT_TRUE(equal(second.view(), steps[1].view())) << size.width << "x" << size.height;
-                EXPECT_TRUE(equal(out.view(), steps[2].view())) << size.width << "x" << size.height;
-                for (GuardedImage<Gray8>* image : {&first, &second, &out}) image->fill(Gray8{90});
-            };
-            auto program = make(first, second, out);
-            Bytes scratch = bytes_of(program.scratch(size.width));
-            ASSERT_EQ(program.run(std::as_const(src).view(), border, span_of(scratch)), Status::ok);
-            ASSERT_TRUE(program.complete());
-            expect_steps();
-
-            for (int top = 0; top < size.height;) {
-                const int bottom = random.between(top, size.height - 1);
-                auto strip = make(first, second, out);
-                ASSERT_EQ(strip.run_strip(std::as_const(src).view(), border, top, bottom, span_of(scratch)),
-                          Status::ok);
-                top = bottom + 1;
-            }
-            expect_steps();
-
-            auto camera = make(first, second, out);
-            ASSERT_EQ(camera.start(size, border, span_of(scratch)), Status::ok);
-            std::vector<Gray8> line(static_cast<std::size_t>(size.width));
-            for (int y = 0; y < size.height; ++y) {
-                ASSERT_FALSE(camera.complete());
-                for (int x = 0; x < size.width; ++x) line[static_cast<std::size_t>(x)] = src(x, y);
-                ASSERT_EQ(camera.push(line.data()), Status::ok);
-            }
-            ASSERT_TRUE(camera.complete());
-            ASSERT_EQ(camera.push(line.data()), Status::out_of_range);
-            expect_steps();
-            if (testing::Test::HasFailure()) return;
-        }
-}
-
-constexpr std::uint32_t mixed(std::uint32_t number) { return (number * 2654435761u + 12345u) >> 9; }
-template <std::uint32_t Seed>
-using Drawn = std::tuple_element_t<mixed(Seed) % std::tuple_size_v<AllParts>, AllParts>;
-
-template <std::uint32_t Seed>
-void expect_drawn() {
-    SCOPED_TRACE(Seed);
-    expect_same<Drawn<3 * Seed>, Drawn<3 * Seed + 1>, Drawn<3 * Seed + 2>>(Seed);
-}
-template <std::uint32_t... Seed>
-void expect_all(std::integer_sequence<std::uint32_t, Seed...>) {
-    (expect_drawn<Seed + 1>(), ...);
-}
-
-TEST(Stream, OfStagesDrawnByLotGivesTheBitsOfWholeFramesInEveryForm) {
-    expect_all(std::make_integer_sequence<std::uint32_t, 10>());
-}
+// ---- Pipelines ----------------------------------------------------------------------------
 
 TEST(Stream, TurnsPackedColourIntoEdgesInOnePass) {
     const Size size{45, 17};
@@ -173,21 +56,42 @@ TEST(Stream, TurnsPackedColourIntoEdgesInOnePass) {
     EXPECT_TRUE(equal(out.view(), expected.view()));
 }
 
-TEST(Stream, BeginsWithEveryFormOfColourAsItsFunctionDoes) {
-    const Size size{45, 7};
-    Random random(6);
+TEST(Stream, FindsWhatIsNotInTheBackgroundInOnePass) {
+    const Size size{45, 17};
+    Random random(8);
+    GuardedImage<Gray8> background(size), src(size), difference(size), level(size), expected(size), out(size);
+    background.fill(random);
+    src = background;
+    for (int y = 5; y < 12; ++y)
+        for (int x = 20; x < 31; ++x) src(x, y) = static_cast<Gray8>(src(x, y) + 100);
+    src(3, 3) = static_cast<Gray8>(src(3, 3) + 100);
+    Bytes work = bytes_of(1 << 16);
+    ASSERT_EQ(absolute_difference(src.view(), background.view(), difference.view()), Status::ok);
+    ASSERT_EQ(threshold(difference.view(), 60, level.view()), Status::ok);
+    ASSERT_EQ(opening(level.view(), {3, 3}, span_of(work), expected.view()), Status::ok);
+    auto program = stream(stages::absolute_difference{background.view()}, stages::threshold{60},
+                          stages::opening{{3, 3}}, into(out.view()));
+    Bytes memory = bytes_of(program.scratch(size.width));
+    ASSERT_EQ(program.run(src.view(), Border::replicate, span_of(memory)), Status::ok);
+    EXPECT_TRUE(equal(out.view(), expected.view()));
+    EXPECT_EQ(out(25, 8), 255);
+    EXPECT_EQ(out(3, 3), 0);
+}
+
+TEST(Stream, RefusesASecondImageOfAnotherSize) {
+    GuardedImage<Gray8> src({16, 4}), out({16, 4}), narrow({15, 4}), high({16, 5});
+    src.fill(Gray8{1});
+    out.fill(Gray8{77});
     Bytes memory = bytes_of(1 << 14);
-    const auto expect = [&](auto stage, auto src) {
-        src.fill(random);
-        GuardedImage<Gray8> expected(size), out(size);
-        ASSERT_EQ(to_gray(std::as_const(src).view(), expected.view()), Status::ok);
-        auto program = stream(stage, into(out.view()));
-        ASSERT_EQ(program.run(std::as_const(src).view(), Border::replicate, span_of(memory)), Status::ok);
-        EXPECT_TRUE(equal(out.view(), expected.view()));
-    };
-    expect(stages::gray_from_rgb, GuardedImage<Rgb888>(size));
-    expect(stages::gray_from_yuyv, GuardedImage<Yuyv>(size));
-    expect(stages::gray_from_uyvy, GuardedImage<Uyvy>(size));
+    for (const View other : {std::as_const(narrow).view(), std::as_const(high).view(), View()}) {
+        auto program = stream(stages::gaussian_3x3, stages::subtract{other}, into(out.view()));
+        EXPECT_EQ(program.run(src.view(), Border::replicate, span_of(memory)), Status::size_mismatch);
+        EXPECT_EQ(program.push(src.view().row(0)), Status::out_of_range);
+        auto mixed = stream(stages::blend{other, 3}, into(out.view()));
+        EXPECT_EQ(mixed.start({16, 4}, Border::replicate, span_of(memory)), Status::size_mismatch);
+    }
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 16; ++x) EXPECT_EQ(out(x, y), 77);
 }
 
 TEST(Stream, EndsInPixelsOfAnotherKind) {
@@ -299,11 +203,46 @@ TEST(Stream, RefusesAStageWhoseOperatorWouldRefuseItsParameters) {
         expect_refused(stages::box{element});
         expect_refused(stages::erode{element});
         expect_refused(stages::dilate{element});
+        expect_refused(stages::opening{element});
+        expect_refused(stages::closing{element});
+        expect_refused(stages::morphological_gradient{element});
+        expect_refused(stages::top_hat{element});
+        expect_refused(stages::black_hat{element});
     }
+    expect_refused(stages::erode_shaped(StructuringElement()));
+    expect_refused(stages::closing_shaped{StructuringElement::cross({2, 3})});
+    expect_refused(stages::threshold_range{3, 2});
+    expect_refused(stages::gray_from_luma{static_cast<YuvRange>(2)});
+    for (const int weight : {-1, 257}) expect_refused(stages::blend{View(), weight});
+    for (const int side : {-1, 0, 2, 65}) expect_refused(stages::adaptive_threshold{side, 0});
+    for (const int offset : {-256, 256}) expect_refused(stages::adaptive_threshold_inverse{3, offset});
     for (const int reach : {-1, 32, 1 << 30}) {
         GaussianTaps taps;
         taps.reach = reach;
         expect_refused(stages::gaussian{taps});
+    }
+}
+
+TEST(Stream, RefusesParametersOfConversionsToo) {
+    GuardedImage<Rgb888> colours({5, 2});
+    GuardedImage<Gradient16> slopes({5, 2});
+    GuardedImage<Gray8> out({5, 2});
+    Random random(1);
+    colours.fill(random);
+    slopes.fill(random);
+    Bytes memory = bytes_of(1 << 12);
+    const auto answer = [&](const auto& stage, const auto& src) {
+        auto program = stream(stage, into(out.view()));
+        return program.run(src.view(), Border::replicate, span_of(memory));
+    };
+    HsvRange crossed;
+    crossed.value_low = 1;
+    crossed.value_high = 0;
+    EXPECT_EQ(answer(stages::hsv_range<Rgb888>{crossed}, colours), Status::bad_argument);
+    EXPECT_EQ(answer(stages::extract_plane{static_cast<ColourChannel>(3)}, colours), Status::bad_argument);
+    for (const int shift : {-1, 16}) {
+        EXPECT_EQ(answer(stages::narrow<Gradient16>{shift}, slopes), Status::bad_argument);
+        EXPECT_EQ(answer(stages::narrow_about_128{shift}, slopes), Status::bad_argument);
     }
 }
 

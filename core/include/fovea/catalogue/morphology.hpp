@@ -67,7 +67,8 @@ inline constexpr Operator morphology[] = {
      [](const OperatorCall& c) {
          return opening(c.input<Gray8>(), {c.values[0], c.values[1]}, c.scratch, c.out<Gray8>());
      },
-     true},
+     true,
+     "open"},
     {"closing",
      "dilation, then erosion: removes what is dark and smaller than the rectangle",
      "2.7.3",
@@ -79,7 +80,8 @@ inline constexpr Operator morphology[] = {
      [](const OperatorCall& c) {
          return closing(c.input<Gray8>(), {c.values[0], c.values[1]}, c.scratch, c.out<Gray8>());
      },
-     true},
+     true,
+     "close"},
     {"top_hat",
      "what is bright and smaller than a rectangle, on any ground",
      "2.7.3",

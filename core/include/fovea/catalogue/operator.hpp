@@ -99,7 +99,9 @@ struct Operator {
     /// Bytes of scratch; none where null. Of the first input's size.
     std::int64_t (*scratch)(Size input, const int* values);
     Status (*run)(const OperatorCall& call);
-    bool in_place = false;  ///< the output may be the first input
+    bool in_place = false;        ///< the output may be the first input
+    const char* alias = nullptr;  ///< a shorter name, where people know one
+    Status refuses = Status::ok;  ///< what it says to images that it has no answer for, the output untouched
 
     constexpr int input_count() const { return inputs[1] == PixelKind::none ? 1 : 2; }
     constexpr int parameter_count() const {
@@ -121,7 +123,7 @@ struct OperatorFamily {
     Span<const Operator> operators;
 };
 
-/// The operator of a name among families; null if there is none.
+/// The operator of a name or an alias among families; null if there is none.
 constexpr const Operator* find_operator(Span<const OperatorFamily> families, const char* name);
 
 /// Runs an operator after its entry's checks: parameters in their range, all views there and of fitting size,
@@ -168,16 +170,17 @@ constexpr const char* describe(PixelKind kind) {
 }
 
 constexpr const Operator* find_operator(Span<const OperatorFamily> families, const char* name) {
-    for (const OperatorFamily& family : families)
-        for (const Operator& op : family.operators) {
-            const char* a = op.name;
-            const char* b = name;
-            while (*a != '\0' && *a == *b) {
-                ++a;
-                ++b;
-            }
-            if (*a == *b) return &op;
+    const auto is_name = [name](const char* a) {
+        const char* b = name;
+        while (*a != '\0' && *a == *b) {
+            ++a;
+            ++b;
         }
+        return *a == *b;
+    };
+    for (const OperatorFamily& family : families)
+        for (const Operator& op : family.operators)
+            if (is_name(op.name) || (op.alias != nullptr && is_name(op.alias))) return &op;
     return nullptr;
 }
 

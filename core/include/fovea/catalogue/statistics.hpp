@@ -10,6 +10,7 @@
 #include <fovea/statistics/clahe.hpp>
 #include <fovea/statistics/equalize.hpp>
 #include <fovea/statistics/integral_image.hpp>
+#include <fovea/statistics/otsu_threshold.hpp>
 #include <fovea/statistics/stretch.hpp>
 
 namespace fovea {
@@ -41,6 +42,32 @@ inline constexpr Operator statistics[] = {
                                      static_cast<std::uint32_t>(c.values[1]), c.scratch, c.out<Gray8>());
      },
      true},
+    {"otsu_threshold",
+     "255 where a pixel belongs to the bright one of two classes, else 0",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {},
+     nullptr,
+     [](Size, const int*) { return otsu_threshold_scratch(); },
+     [](const OperatorCall& c) { return otsu_threshold(c.input<Gray8>(), c.scratch, c.out<Gray8>()); },
+     true,
+     "otsu",
+     Status::degenerate},
+    {"otsu_threshold_inverse",
+     "255 where a pixel belongs to the dark one of two classes, else 0",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {},
+     nullptr,
+     [](Size, const int*) { return otsu_threshold_scratch(); },
+     [](const OperatorCall& c) {
+         return otsu_threshold_inverse(c.input<Gray8>(), c.scratch, c.out<Gray8>());
+     },
+     true,
+     nullptr,
+     Status::degenerate},
     {"auto_scale_gray16",
      "smallest value becomes 0, largest 255",
      "",

@@ -198,27 +198,95 @@ void across_in_place(int width, int side, simd::ByteLine& line, Gray8* dst) {
     three_across<Extreme>(line, width, dst);
 }
 
+/// put(x, extreme, count) for the columns of rows first..height - 1 of a window: a few vectors abreast, so
+/// that the pointer of a row is fetched once for all of them and none waits for the one before.
+template <class Extreme, class Height, class Put>
+[[gnu::always_inline]] inline void window_down(const RowWindow<Gray8>& window, int first, Height height,
+                                               Put put) {
+    using simd::Bytes;
+    constexpr int lanes = simd::lanes;
+    constexpr int abreast = lanes == 4 ? 2 : 4;
+    const int width = window.width();
+    int x = 0;
+    for (; x + abreast * lanes <= width; x += abreast * lanes) {
+        Bytes extreme[abreast];
+        simd::unroll<abreast>([&](auto k) { extreme[k] = Bytes::load(window[first] + x + k * lanes); });
+        for (int i = first + 1; i < height; ++i) {
+            const Gray8* row = window[i] + x;
+            simd::unroll<abreast>(
+                [&](auto k) { extreme[k] = Extreme::of(extreme[k], Bytes::load(row + k * lanes)); });
+        }
+        simd::unroll<abreast>([&](auto k) { put(x + k * lanes, extreme[k], lanes); });
+    }
+    for (; x < width; x += lanes) {
+        const int count = minimum(lanes, width - x);
+        Bytes extreme = Bytes::load(window[first] + x, count);
+        for (int i = first + 1; i < height; ++i)
+            extreme = Extreme::of(extreme, Bytes::load(window[i] + x, count));
+        put(x, extreme, count);
+    }
+}
+
+/// Windows from this height on share all but one row with the next one.
+inline constexpr int least_shared_height = 5;
+
+/// follows says that the window is one row below that of the call before. Of tall windows every second one
+/// leaves what it shares with the next.
 template <class Extreme>
 class ExtremeRow {
 public:
     using Input = Gray8;
     using Output = Gray8;
 
+    /// A line, and of tall windows a row that two of them share.
+    static constexpr std::int64_t scratch(Size element, int width) {
+        return byte_line_scratch(width) + (element.height < least_shared_height ? 0 : std::int64_t{width});
+    }
+
     ExtremeRow() = default;
     ExtremeRow(Size element, Span<std::uint8_t> scratch, int width)
-        : element_(element), line_(scratch, width) {}
+        : element_(element), line_(scratch, width), shared_(scratch.data() + byte_line_scratch(width)) {}
 
     int rows() const { return element_.height; }
 
-    void operator()(const RowWindow<Gray8>& window, Gray8* dst) {
-        rows_down<Extreme, 1>(
-            window.count(), window.width(), [&](int i) { return window[i]; }, [&](int) { return dst; });
-        across_in_place<Extreme>(window.width(), element_.width, line_, dst);
+    void operator()(const RowWindow<Gray8>& window, Gray8* dst) { (*this)(window, false, dst); }
+    void operator()(const RowWindow<Gray8>& window, bool follows, Gray8* dst) {
+        const int width = window.width();
+        const bool three = element_.width == 3;
+        down(window, follows, three ? line_.pixels() : dst);
+        if (three) {
+            line_.replicate(width, 1);
+            three_across<Extreme>(line_, width, dst);
+        } else {
+            across_in_place<Extreme>(width, element_.width, line_, dst);
+        }
     }
 
 private:
+    void down(const RowWindow<Gray8>& window, bool follows, Gray8* out) {
+        using simd::Bytes;
+        const int height = window.count();
+        const auto store = [&](int x, Bytes extreme, int count) { extreme.store(out + x, count); };
+        is_shared_ = height >= least_shared_height && !(follows && is_shared_);
+        if (height == 3) {
+            window_down<Extreme>(window, 0, std::integral_constant<int, 3>(), store);
+        } else if (height < least_shared_height) {
+            window_down<Extreme>(window, 0, height, store);
+        } else if (is_shared_) {
+            window_down<Extreme>(window, 1, height, [&](int x, Bytes extreme, int count) {
+                extreme.store(shared_ + x, count);
+                store(x, Extreme::of(extreme, Bytes::load(window[0] + x, count)), count);
+            });
+        } else {
+            const Gray8* const two[] = {shared_, window[height - 1]};
+            window_down<Extreme>({two, 2, window.width()}, 0, std::integral_constant<int, 2>(), store);
+        }
+    }
+
     Size element_{1, 1};
     simd::ByteLine line_;
+    Gray8* shared_ = nullptr;
+    bool is_shared_ = false;  ///< whether shared_ holds what the next window needs
 };
 
 /// Rows first..last in groups of Rows, and what is left one by one.

@@ -10,7 +10,9 @@
 #include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/image/border.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/image/row_kernel.hpp>
 #include <fovea/morphology/rectangle_kernels.hpp>
 #include <fovea/morphology/structuring_element.hpp>
 #include <fovea/number/integer.hpp>
@@ -115,13 +117,16 @@ struct ShapeWindow {
     std::uint8_t doublings = 0;
 };
 
-/// The rows of the image that an element reaches, each with the extremes of 1, 2, 4 ... columns from each
-/// column on.
+/// As many rows as an element is high, each with the extremes of 1, 2, 4 ... columns from each column on.
 template <class Extreme>
-class ShapedRows {
+class ShapedLines {
 public:
-    ShapedRows(ImageView<const Gray8> src, const StructuringElement& element, Span<std::uint8_t> scratch)
-        : src_(src), height_(element.size().height), levels_(most_doublings(element) + 1), scratch_(scratch) {
+    ShapedLines() = default;
+    ShapedLines(int width, const StructuringElement& element, Span<std::uint8_t> scratch)
+        : width_(width),
+          height_(element.size().height),
+          levels_(most_doublings(element) + 1),
+          scratch_(scratch) {
         const std::ptrdiff_t lines = height_ * levels_ + 1;
         Arena arena(scratch_.from(lines * line_bytes()));
         pointers_ = arena.take<const std::uint8_t*>(windows_of(element));
@@ -144,46 +149,47 @@ public:
             });
         std::memset(nothing(), Extreme::neutral, static_cast<std::size_t>(line_bytes()));
     }
+    int height() const { return height_; }
 
-    void make_row(int y, Gray8* dst) {
-        const int reach = height_ / 2;
-        for (; loaded_ < src_.height() && loaded_ <= y + reach; ++loaded_) load(loaded_);
+    void load(const Gray8* row, int place) {
+        std::uint8_t* pixels = line_of(place, 0) + max_reach;
+        std::memset(pixels - max_reach, Extreme::neutral, static_cast<std::size_t>(max_reach));
+        std::memcpy(pixels, row, static_cast<std::size_t>(width_));
+        std::memset(pixels + width_, Extreme::neutral, static_cast<std::size_t>(max_reach));
+        for (int level = 1; level < levels_; ++level) {
+            const std::uint8_t* from = line_of(place, level - 1) + max_reach;
+            std::uint8_t* to = line_of(place, level) + max_reach;
+            const int step = 1 << (level - 1);
+            // Windows begin at most half an element before the row, and end behind it.
+            for (int x = -max_shape_side / 2; x < width_ + max_shape_side / 2; x += simd::lanes)
+                Extreme::of(simd::Bytes::load(from + x), simd::Bytes::load(from + x + step)).store(to + x);
+        }
+    }
+    /// A row of the result; place_of(i) says where row i of the element was loaded to, no_index for a row
+    /// beyond the image.
+    template <class PlaceOf>
+    void make_row(PlaceOf place_of, Gray8* dst) {
         const std::ptrdiff_t bytes = line_bytes();
         for (std::ptrdiff_t i = 0; i < windows_.size(); ++i) {
             const ShapeWindow window = windows_[i];
-            const int row = y + window.row - reach;
-            const bool inside = row >= 0 && row < src_.height();
-            const std::uint8_t* line = inside ? line_of(row, 0) + window.doublings * bytes : nothing();
+            const int place = place_of(window.row);
+            const std::uint8_t* line =
+                place == no_index ? nothing() : line_of(place, 0) + window.doublings * bytes;
             pointers_[i] = line + max_reach + window.x;
         }
         join(pointers_.data(), static_cast<int>(pointers_.size()), dst);
     }
 
 private:
-    std::ptrdiff_t line_bytes() const { return static_cast<std::ptrdiff_t>(byte_line_scratch(src_.width())); }
+    std::ptrdiff_t line_bytes() const { return static_cast<std::ptrdiff_t>(byte_line_scratch(width_)); }
     std::uint8_t* nothing() const { return scratch_.data(); }
-    std::uint8_t* line_of(int row, int level) const {
-        return scratch_.data() + (1 + row % height_ * levels_ + level) * line_bytes();
-    }
-    void load(int row) {
-        const int width = src_.width();
-        std::uint8_t* pixels = line_of(row, 0) + max_reach;
-        std::memset(pixels - max_reach, Extreme::neutral, static_cast<std::size_t>(max_reach));
-        std::memcpy(pixels, src_.row(row), static_cast<std::size_t>(width));
-        std::memset(pixels + width, Extreme::neutral, static_cast<std::size_t>(max_reach));
-        for (int level = 1; level < levels_; ++level) {
-            const std::uint8_t* from = line_of(row, level - 1) + max_reach;
-            std::uint8_t* to = line_of(row, level) + max_reach;
-            const int step = 1 << (level - 1);
-            // Windows begin at most half an element before the row, and end behind it.
-            for (int x = -max_shape_side / 2; x < width + max_shape_side / 2; x += simd::lanes)
-                Extreme::of(simd::Bytes::load(from + x), simd::Bytes::load(from + x + step)).store(to + x);
-        }
+    std::uint8_t* line_of(int place, int level) const {
+        return scratch_.data() + (1 + place * levels_ + level) * line_bytes();
     }
     /// Four vectors abreast, so that a window's address is fetched once for all of them.
     void join(const std::uint8_t* const* windows, int count, Gray8* dst) const {
         constexpr int lanes = simd::lanes;
-        const int width = src_.width();
+        const int width = width_;
         int x = 0;
         for (; x + 4 * lanes <= width; x += 4 * lanes) {
             simd::Bytes a = simd::Bytes::load(windows[0] + x);
@@ -209,13 +215,40 @@ private:
         }
     }
 
-    ImageView<const Gray8> src_;
-    int height_;
-    int levels_;
+    int width_ = 0;
+    int height_ = 1;
+    int levels_ = 1;
     Span<std::uint8_t> scratch_;
     Span<const std::uint8_t*> pointers_;
     Span<ShapeWindow> windows_;
-    int loaded_ = 0;
+};
+
+/// The row kernel of erosion and dilation with an element, for rows that come one at a time. Rows beyond the
+/// image hold Extreme::neutral. follows says that the window is one row below that of the call before: then
+/// its lowest row alone is new.
+template <class Extreme>
+class ShapedRow {
+public:
+    using Input = Gray8;
+    using Output = Gray8;
+
+    ShapedRow() = default;
+    ShapedRow(const StructuringElement& element, Span<std::uint8_t> scratch, int width)
+        : lines_(width, element, scratch) {}
+
+    int rows() const { return lines_.height(); }
+
+    void operator()(const RowWindow<Gray8>& window, bool follows, Gray8* dst) {
+        const int height = window.count();
+        first_ = follows ? (first_ + 1) % height : 0;
+        const auto place_of = [&](int i) { return (first_ + i) % height; };
+        for (int i = follows ? height - 1 : 0; i < height; ++i) lines_.load(window[i], place_of(i));
+        lines_.make_row(place_of, dst);
+    }
+
+private:
+    ShapedLines<Extreme> lines_;
+    int first_ = 0;  ///< where the highest row of the window is
 };
 
 inline Status check_shape(ImageView<const Gray8> src, const StructuringElement& element, std::int64_t needed,
@@ -229,8 +262,19 @@ inline Status check_shape(ImageView<const Gray8> src, const StructuringElement& 
 template <class Extreme>
 void shaped_frame(ImageView<const Gray8> src, const StructuringElement& element, Span<std::uint8_t> scratch,
                   ImageView<Gray8> dst) {
-    ShapedRows<Extreme> rows(src, element, scratch);
-    for (int y = 0; y < src.height(); ++y) rows.make_row(y, dst.row(y));
+    ShapedLines<Extreme> lines(src.width(), element, scratch);
+    const int height = element.size().height;
+    const int reach = height / 2;
+    int loaded = 0;
+    for (int y = 0; y < src.height(); ++y) {
+        for (; loaded < src.height() && loaded <= y + reach; ++loaded)
+            lines.load(src.row(loaded), loaded % height);
+        const auto place_of = [&](int i) {
+            const int row = y + i - reach;
+            return row >= 0 && row < src.height() ? row % height : no_index;
+        };
+        lines.make_row(place_of, dst.row(y));
+    }
 }
 
 }  // namespace kernels

@@ -78,84 +78,120 @@ inline Status invert(ImageView<const Gray8> src, ImageView<Gray8> dst);
 
 // ---- Implementation ---------------------------------------------------------------
 
+namespace kernels {
+
+/// The operations, of vectors of pixels.
+struct Add {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const { return x + y; }
+};
+struct AddSaturated {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const {
+        return add_saturated(x, y);
+    }
+};
+struct Subtract {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const { return x - y; }
+};
+struct SubtractSaturated {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const {
+        return subtract_saturated(x, y);
+    }
+};
+struct AbsoluteDifference {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const {
+        // One of the two is 0.
+        return subtract_saturated(x, y) | subtract_saturated(y, x);
+    }
+};
+struct Average {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const {
+        return average(x, y);
+    }
+};
+struct PixelMinimum {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const { return lower(x, y); }
+};
+struct PixelMaximum {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const { return higher(x, y); }
+};
+struct BitwiseAnd {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const { return x & y; }
+};
+struct BitwiseOr {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const { return x | y; }
+};
+struct BitwiseXor {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const { return x ^ y; }
+};
+struct Blend {
+    int weight;  ///< of y
+
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x, simd::Bytes y) const {
+        const auto of_x = static_cast<std::uint16_t>(whole_weight - weight);
+        const auto of_y = static_cast<std::uint16_t>(weight);
+        const simd::Words half = simd::Words::all(whole_weight / 2);
+        return ((simd::Words(x) * of_x + simd::Words(y) * of_y + half) >> 8).narrow();
+    }
+};
+struct Invert {
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes x) const { return ~x; }
+};
+
+}  // namespace kernels
+
 inline Status add(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return x + y; }, dst);
+    return kernels::point_frame(a, b, kernels::Add(), dst);
 }
 
 inline Status add_saturated(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return add_saturated(x, y); }, dst);
+    return kernels::point_frame(a, b, kernels::AddSaturated(), dst);
 }
 
 inline Status subtract(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return x - y; }, dst);
+    return kernels::point_frame(a, b, kernels::Subtract(), dst);
 }
 
 inline Status subtract_saturated(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return subtract_saturated(x, y); }, dst);
+    return kernels::point_frame(a, b, kernels::SubtractSaturated(), dst);
 }
 
 inline Status absolute_difference(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b,
-        [](simd::Bytes x, simd::Bytes y) {
-            // One of the two is 0.
-            return subtract_saturated(x, y) | subtract_saturated(y, x);
-        },
-        dst);
+    return kernels::point_frame(a, b, kernels::AbsoluteDifference(), dst);
 }
 
 inline Status average(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return average(x, y); }, dst);
+    return kernels::point_frame(a, b, kernels::Average(), dst);
 }
 
 inline Status pixel_minimum(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return lower(x, y); }, dst);
+    return kernels::point_frame(a, b, kernels::PixelMinimum(), dst);
 }
 
 inline Status pixel_maximum(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return higher(x, y); }, dst);
+    return kernels::point_frame(a, b, kernels::PixelMaximum(), dst);
 }
 
 inline Status blend(ImageView<const Gray8> a, ImageView<const Gray8> b, int weight, ImageView<Gray8> dst) {
     if (a.empty() || b.empty()) return Status::empty_image;
     if (b.size() != a.size() || dst.size() != a.size()) return Status::size_mismatch;
     if (weight < 0 || weight > whole_weight) return Status::bad_argument;
-    const auto of_a = static_cast<std::uint16_t>(whole_weight - weight);
-    const auto of_b = static_cast<std::uint16_t>(weight);
-    const simd::Words half = simd::Words::all(128);
-    return kernels::point_frame(
-        a, b,
-        [=](simd::Bytes x, simd::Bytes y) {
-            return ((simd::Words(x) * of_a + simd::Words(y) * of_b + half) >> 8).narrow();
-        },
-        dst);
+    return kernels::point_frame(a, b, kernels::Blend{weight}, dst);
 }
 
 inline Status bitwise_and(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return x & y; }, dst);
+    return kernels::point_frame(a, b, kernels::BitwiseAnd(), dst);
 }
 
 inline Status bitwise_or(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return x | y; }, dst);
+    return kernels::point_frame(a, b, kernels::BitwiseOr(), dst);
 }
 
 inline Status bitwise_xor(ImageView<const Gray8> a, ImageView<const Gray8> b, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        a, b, [](simd::Bytes x, simd::Bytes y) { return x ^ y; }, dst);
+    return kernels::point_frame(a, b, kernels::BitwiseXor(), dst);
 }
 
 inline Status invert(ImageView<const Gray8> src, ImageView<Gray8> dst) {
-    return kernels::point_frame(
-        src, [](simd::Bytes x) { return ~x; }, dst);
+    return kernels::point_frame(src, kernels::Invert(), dst);
 }
 
 }  // namespace FOVEA_ISA

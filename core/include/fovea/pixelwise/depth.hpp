@@ -3,6 +3,7 @@
 // From 8 bits to more and back by a fixed scale. By the picture's own range: statistics/stretch.hpp.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -103,22 +104,32 @@ int narrow_in_vectors([[maybe_unused]] const Wide* from, [[maybe_unused]] int wi
     return x;
 }
 
+constexpr bool is_narrowing(int shift, std::size_t bytes) {
+    return shift >= 0 && shift < static_cast<int>(8 * bytes);
+}
+
+/// offset + src / 2^shift of one row. An offset comes with pixels that have a sign alone.
+template <class Wide>
+void narrow_row(const Wide* src, int width, int shift, int offset, Gray8* dst) {
+    const auto low = static_cast<Wide>(-offset);
+    const auto high = static_cast<Wide>(255 - offset);
+    for (int x = narrow_in_vectors(src, width, shift, low, high, static_cast<Wide>(offset), dst); x < width;
+         ++x)
+        dst[x] = narrowed(src[x], shift, low, high, static_cast<Wide>(offset));
+}
+
+template <class Wide>
+void widen_row(const Gray8* src, int width, Wide* dst) {
+    for (int x = 0; x < width; ++x) dst[x] = static_cast<Wide>(src[x]);
+}
+
 template <class Wide>
 Status narrow_frame(ImageView<const Wide> src, int shift, int offset, ImageView<Gray8> dst) {
     static_assert(is_wide_pixel<Wide>, "narrow() takes Gray16, Gradient16 and Sum32");
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
-    if (shift < 0 || shift >= static_cast<int>(8 * sizeof(Wide))) return Status::bad_argument;
-    // An offset comes with pixels that have a sign alone.
-    const auto low = static_cast<Wide>(-offset);
-    const auto high = static_cast<Wide>(255 - offset);
-    for (int y = 0; y < src.height(); ++y) {
-        const Wide* from = src.row(y);
-        Gray8* to = dst.row(y);
-        for (int x = narrow_in_vectors(from, src.width(), shift, low, high, static_cast<Wide>(offset), to);
-             x < src.width(); ++x)
-            to[x] = narrowed(from[x], shift, low, high, static_cast<Wide>(offset));
-    }
+    if (!is_narrowing(shift, sizeof(Wide))) return Status::bad_argument;
+    for (int y = 0; y < src.height(); ++y) narrow_row(src.row(y), src.width(), shift, offset, dst.row(y));
     return Status::ok;
 }
 
@@ -129,11 +140,7 @@ Status widen(ImageView<const Gray8> src, ImageView<Wide> dst) {
     static_assert(kernels::is_wide_pixel<Wide>, "widen() makes Gray16, Gradient16 and Sum32");
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
-    for (int y = 0; y < src.height(); ++y) {
-        const Gray8* from = src.row(y);
-        Wide* to = dst.row(y);
-        for (int x = 0; x < src.width(); ++x) to[x] = static_cast<Wide>(from[x]);
-    }
+    for (int y = 0; y < src.height(); ++y) kernels::widen_row(src.row(y), src.width(), dst.row(y));
     return Status::ok;
 }
 

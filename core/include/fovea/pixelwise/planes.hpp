@@ -86,6 +86,24 @@ inline void merge_row(const Gray8* red, const Gray8* green, const Gray8* blue, i
     for (; x < width; ++x) dst[x] = {red[x], green[x], blue[x]};
 }
 
+constexpr bool is_channel(ColourChannel channel) {
+    return channel == ColourChannel::red || channel == ColourChannel::green || channel == ColourChannel::blue;
+}
+
+/// extract_plane() of one row.
+inline void plane_row(const Rgb888* src, int width, ColourChannel channel, Gray8* dst) {
+    const auto row = [=](auto plane) {
+        simd::for_each_step<3, 1>(&src->red, width, dst, [=](const std::uint8_t* in, std::uint8_t* out) {
+            plane(simd::load_triples(in)).store(out);
+        });
+    };
+    switch (channel) {
+        case ColourChannel::red: return row([](const simd::ByteTriples& t) { return t.first; });
+        case ColourChannel::green: return row([](const simd::ByteTriples& t) { return t.second; });
+        case ColourChannel::blue: return row([](const simd::ByteTriples& t) { return t.third; });
+    }
+}
+
 /// row(y, width) for every row of four images of one size, joined as in convert_frame().
 template <class Colour, class Plane, class Row>
 Status planes_frame(ImageView<Colour> colour, ImageView<Plane> red, ImageView<Plane> green,
@@ -130,19 +148,10 @@ inline Status merge_planes(ImageView<const Gray8> red, ImageView<const Gray8> gr
 inline Status extract_plane(ImageView<const Rgb888> src, ColourChannel channel, ImageView<Gray8> dst) {
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
-    const auto frame = [&](auto plane) {
-        return detail::convert_frame(src, dst, [=](const Rgb888* from, int width, Gray8* to) {
-            simd::for_each_step<3, 1>(&from->red, width, to, [=](const std::uint8_t* in, std::uint8_t* out) {
-                plane(simd::load_triples(in)).store(out);
-            });
-        });
-    };
-    switch (channel) {
-        case ColourChannel::red: return frame([](const simd::ByteTriples& t) { return t.first; });
-        case ColourChannel::green: return frame([](const simd::ByteTriples& t) { return t.second; });
-        case ColourChannel::blue: return frame([](const simd::ByteTriples& t) { return t.third; });
-    }
-    return Status::bad_argument;
+    if (!kernels::is_channel(channel)) return Status::bad_argument;
+    return detail::convert_frame(src, dst, [=](const Rgb888* from, int width, Gray8* to) {
+        kernels::plane_row(from, width, channel, to);
+    });
 }
 
 }  // namespace FOVEA_ISA

@@ -51,54 +51,77 @@ inline Status threshold_filter_inverse(ImageView<const Gray8> src, Gray8 level, 
 
 namespace kernels {
 
+/// The thresholds, of vectors of pixels.
+struct Threshold {
+    simd::Bytes level;
+    explicit Threshold(Gray8 of) : level(simd::Bytes::all(of)) {}
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes pixels) const {
+        return at_least(pixels, level);
+    }
+};
+struct ThresholdInverse {
+    simd::Bytes level;
+    explicit ThresholdInverse(Gray8 of) : level(simd::Bytes::all(of)) {}
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes pixels) const {
+        return ~at_least(pixels, level);
+    }
+};
+struct ThresholdRange {
+    simd::Bytes low;
+    simd::Bytes high;
+    ThresholdRange(Gray8 from, Gray8 to) : low(simd::Bytes::all(from)), high(simd::Bytes::all(to)) {}
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes pixels) const {
+        return at_least(pixels, low) & at_least(high, pixels);
+    }
+};
+struct ThresholdFilter {
+    simd::Bytes level;
+    explicit ThresholdFilter(Gray8 of) : level(simd::Bytes::all(of)) {}
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes pixels) const {
+        return pixels & at_least(pixels, level);
+    }
+};
+struct ThresholdFilterInverse {
+    simd::Bytes level;
+    explicit ThresholdFilterInverse(Gray8 of) : level(simd::Bytes::all(of)) {}
+    [[gnu::always_inline]] simd::Bytes operator()(simd::Bytes pixels) const {
+        return pixels & ~at_least(pixels, level);
+    }
+};
+
 /// threshold() of one row, for rows that come one at a time.
 inline void threshold_row(const Gray8* src, int width, Gray8 level, Gray8* dst) {
-    const simd::Bytes limit = simd::Bytes::all(level);
-    point_row(
-        src, width, [=](simd::Bytes pixels) { return at_least(pixels, limit); }, dst);
+    point_row(src, width, Threshold(level), dst);
 }
 
 /// threshold_inverse() of one row.
 inline void threshold_inverse_row(const Gray8* src, int width, Gray8 level, Gray8* dst) {
-    const simd::Bytes limit = simd::Bytes::all(level);
-    point_row(
-        src, width, [=](simd::Bytes pixels) { return ~at_least(pixels, limit); }, dst);
+    point_row(src, width, ThresholdInverse(level), dst);
 }
 
 }  // namespace kernels
 
 inline Status threshold(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
-    const simd::Bytes limit = simd::Bytes::all(level);
-    return kernels::point_frame(
-        src, [=](simd::Bytes pixels) { return at_least(pixels, limit); }, dst);
+    return kernels::point_frame(src, kernels::Threshold(level), dst);
 }
 
 inline Status threshold_inverse(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
-    const simd::Bytes limit = simd::Bytes::all(level);
-    return kernels::point_frame(
-        src, [=](simd::Bytes pixels) { return ~at_least(pixels, limit); }, dst);
+    return kernels::point_frame(src, kernels::ThresholdInverse(level), dst);
 }
 
 inline Status threshold_range(ImageView<const Gray8> src, Gray8 low, Gray8 high, ImageView<Gray8> dst) {
     if (src.empty()) return Status::empty_image;
     if (dst.size() != src.size()) return Status::size_mismatch;
     if (low > high) return Status::bad_argument;
-    const simd::Bytes first = simd::Bytes::all(low);
-    const simd::Bytes last = simd::Bytes::all(high);
-    return kernels::point_frame(
-        src, [=](simd::Bytes pixels) { return at_least(pixels, first) & at_least(last, pixels); }, dst);
+    return kernels::point_frame(src, kernels::ThresholdRange(low, high), dst);
 }
 
 inline Status threshold_filter(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
-    const simd::Bytes limit = simd::Bytes::all(level);
-    return kernels::point_frame(
-        src, [=](simd::Bytes pixels) { return pixels & at_least(pixels, limit); }, dst);
+    return kernels::point_frame(src, kernels::ThresholdFilter(level), dst);
 }
 
 inline Status threshold_filter_inverse(ImageView<const Gray8> src, Gray8 level, ImageView<Gray8> dst) {
-    const simd::Bytes limit = simd::Bytes::all(level);
-    return kernels::point_frame(
-        src, [=](simd::Bytes pixels) { return pixels & ~at_least(pixels, limit); }, dst);
+    return kernels::point_frame(src, kernels::ThresholdFilterInverse(level), dst);
 }
 
 }  // namespace FOVEA_ISA

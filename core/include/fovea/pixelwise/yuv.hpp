@@ -166,6 +166,8 @@ struct YuvLanes {
     }
 };
 
+constexpr bool is_range(YuvRange range) { return range == YuvRange::full || range == YuvRange::narrow; }
+
 /// act(lanes of the range).
 template <class Act>
 Status with_range(YuvRange range, Act act) {
@@ -202,6 +204,14 @@ void rgb_from_uyvy_row(const Uyvy* src, int width, Rgb888* dst) {
                                   YuvLanes<Range>::step(pairs.second, pairs.first, to);
                               });
     if (width % 2 != 0) last_of_odd_row(src, width, Range, dst);
+}
+
+/// to_gray() of one row of luma.
+template <class Lanes>
+void gray_from_luma_row(const Gray8* luma, int width, Lanes lanes, Gray8* dst) {
+    simd::for_each_step<1, 1>(luma, width, dst, [=](const std::uint8_t* from, std::uint8_t* to) {
+        lanes.gray(simd::Bytes::load(from)).store(to);
+    });
 }
 
 /// to_rgb() of one row of NV12 and the row of differences that belongs to it.
@@ -264,9 +274,7 @@ inline Status to_gray(ImageView<const Uyvy> src, YuvRange range, ImageView<Gray8
 inline Status to_gray(ImageView<const Gray8> luma, YuvRange range, ImageView<Gray8> dst) {
     return kernels::with_range(range, [&](auto lanes) {
         return detail::convert_frame(luma, dst, [=](const Gray8* from, int width, Gray8* to) {
-            simd::for_each_step<1, 1>(from, width, to, [=](const std::uint8_t* in, std::uint8_t* out) {
-                lanes.gray(simd::Bytes::load(in)).store(out);
-            });
+            kernels::gray_from_luma_row(from, width, lanes, to);
         });
     });
 }

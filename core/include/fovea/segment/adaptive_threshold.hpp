@@ -8,8 +8,10 @@
 #include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/image/border.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
+#include <fovea/image/row_kernel.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/prefix.hpp>
@@ -152,6 +154,50 @@ inline Status adaptive_frame(ImageView<const Gray8> src, int side, int offset, G
     return Status::ok;
 }
 
+/// The row kernel of adaptive_threshold() and its inverse, for windows up to max_window_rows. Its column sums
+/// are made anew for every row.
+class AdaptiveRow {
+public:
+    using Input = Gray8;
+    using Output = Gray8;
+
+    static constexpr std::int64_t scratch(int width, int side) {
+        return adaptive_threshold_scratch({width, 1}, side);
+    }
+
+    AdaptiveRow() = default;
+    AdaptiveRow(int side, int offset, Gray8 flip, Span<std::uint8_t> bytes, int width)
+        : side_(side), offset_(offset), flip_(flip) {
+        Arena arena(bytes);
+        line_ = arena.take<std::uint16_t>(std::ptrdiff_t{width} + side).data();
+        prefix_ = arena.take<std::uint32_t>(std::ptrdiff_t{width} + side + 1).data();
+    }
+
+    int rows() const { return side_; }
+
+    void operator()(const RowWindow<Gray8>& window, Gray8* dst) {
+        const int width = window.width();
+        const int reach = side_ / 2;
+        std::uint16_t* columns = line_ + reach;
+        for (int x = 0; x < width; ++x) columns[x] = window[0][x];
+        for (int i = 1; i < side_; ++i) {
+            const Gray8* row = window[i];
+            for (int x = 0; x < width; ++x) columns[x] = static_cast<std::uint16_t>(columns[x] + row[x]);
+        }
+        detail::replicate_sums(width, reach, line_);
+        prefix_[0] = 0;
+        simd::prefix_row(line_, width + side_ - 1, prefix_ + 1);
+        compare_with_means(window[reach], prefix_, width, side_, offset_, flip_, dst);
+    }
+
+private:
+    int side_ = 1;
+    int offset_ = 0;
+    Gray8 flip_ = 0;
+    std::uint16_t* line_ = nullptr;
+    std::uint32_t* prefix_ = nullptr;
+};
+
 }  // namespace kernels
 
 inline Status adaptive_threshold(ImageView<const Gray8> src, int side, int offset, Span<std::uint8_t> scratch,
@@ -163,6 +209,33 @@ inline Status adaptive_threshold_inverse(ImageView<const Gray8> src, int side, i
                                          Span<std::uint8_t> scratch, ImageView<Gray8> dst) {
     return kernels::adaptive_frame(src, side, offset, 255, scratch, dst);
 }
+
+namespace stages {
+
+/// adaptive_threshold() and its inverse, with a side up to max_window_rows. The outermost pixels repeat
+/// whatever the stream's border is.
+template <int Flip>
+struct AdaptiveStage {
+    using Kernel = kernels::AdaptiveRow;
+    using Input = Gray8;
+    using Output = Gray8;
+    int side;
+    int offset;
+
+    constexpr bool valid() const {
+        return side >= 1 && side <= max_window_rows && side % 2 == 1 && offset >= -255 && offset <= 255;
+    }
+    constexpr int rows() const { return side; }
+    constexpr std::int64_t scratch(int width) const { return Kernel::scratch(width, side); }
+    static constexpr Border border(Border) { return Border::replicate; }
+    Kernel kernel(Border, Span<std::uint8_t> bytes, int width) const {
+        return Kernel(side, offset, Flip, bytes, width);
+    }
+};
+using adaptive_threshold = AdaptiveStage<0>;
+using adaptive_threshold_inverse = AdaptiveStage<255>;
+
+}  // namespace stages
 
 }  // namespace FOVEA_ISA
 

@@ -56,6 +56,8 @@ public:
     Status add_row(const std::uint8_t* row);
     /// Closes what is open and orders the lists. Nothing may be added afterwards.
     Status finish();
+    /// What the parameters were refused with, and what stopped the work.
+    Status status() const { return status_; }
 
 private:
     template <class>

@@ -8,6 +8,7 @@
 
 #include <fovea/base/assert.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
@@ -22,7 +23,8 @@ struct ColourFloors {
     Gray8 value = 32;       ///< least value that counts; higher leaves more of shadows out
 };
 
-/// How often each hue and saturation occurs. An accumulator: it takes rows in any number of calls.
+/// How often each hue and saturation occurs. An accumulator: it takes rows in any number of calls, or those
+/// of a stream.
 ///
 /// Units   counts of pixels, at most 2^32 - 1 in all. HueBins share the 180 hues, SaturationBins the 256
 /// saturations;
@@ -36,6 +38,7 @@ public:
     static_assert(HueBins >= 1 && HueBins <= 180, "there are 180 hues");
     static_assert(SaturationBins >= 1 && SaturationBins <= 256, "there are 256 saturations");
 
+    using Input = Hsv888;
     static constexpr int hues = HueBins;
     static constexpr int saturations = SaturationBins;
 
@@ -53,6 +56,16 @@ public:
                 count(row[x + 3], counts_[3]);
             }
         for (; x < width; ++x) count(row[x], counts_[0]);
+    }
+    /// As the accumulator of a stream: cleared for every image.
+    constexpr Status begin(Size) {
+        clear();
+        return Status::ok;
+    }
+    constexpr void add_row(const Hsv888* row, int width, int) { add_row(row, width); }
+    /// Adds the counts of other rows, which had the same floors: of another strip of a frame.
+    constexpr void merge(const HueSaturationHistogram& other) {
+        for (int bin = 0; bin < size(); ++bin) counts_[0][bin] += other[bin];
     }
     static constexpr int hue_bin(Gray8 hue) { return minimum<int>(hue, 179) * HueBins / 180; }
     static constexpr int saturation_bin(Gray8 saturation) { return saturation * SaturationBins / 256; }

@@ -4,10 +4,12 @@
 // is spaced.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/simd/isa.hpp>
@@ -31,6 +33,55 @@ inline namespace FOVEA_ISA {
 /// Shapes  src 1x1 or larger; one sum for each row
 /// Others  as project_columns()
 inline Status project_rows(ImageView<const Gray8> src, Span<std::uint32_t> sums);
+
+/// project_columns() of rows that come one at a time: an accumulator for streams. A strip of a frame gives
+/// the sums of its rows, and those of all strips are added up by merge().
+///
+/// Errors  of begin(): size_mismatch for another count of sums than columns
+class ColumnProjection {
+public:
+    using Input = Gray8;
+    explicit constexpr ColumnProjection(Span<std::uint32_t> sums) : sums_(sums) {}
+
+    Status begin(Size size) {
+        if (sums_.size() != size.width) return Status::size_mismatch;
+        for (std::uint32_t& sum : sums_) sum = 0;
+        return Status::ok;
+    }
+    void add_row(const Gray8* row, int width, int) {
+        std::uint32_t* to = sums_.data();
+        for (int x = 0; x < width; ++x) to[x] += row[x];
+    }
+    /// Adds the sums of other rows of the same image.
+    ///
+    /// Errors  size_mismatch, with the sums as they were
+    Status merge(const ColumnProjection& other) {
+        if (other.sums_.size() != sums_.size()) return Status::size_mismatch;
+        for (std::ptrdiff_t x = 0; x < sums_.size(); ++x) sums_[x] += other.sums_[x];
+        return Status::ok;
+    }
+
+private:
+    Span<std::uint32_t> sums_;
+};
+
+/// project_rows() of rows that come one at a time. Strips of a frame write the sums of their own rows, and
+/// may share one span.
+///
+/// Errors  of begin(): size_mismatch for another count of sums than rows
+class RowProjection {
+public:
+    using Input = Gray8;
+    explicit constexpr RowProjection(Span<std::uint32_t> sums) : sums_(sums) {}
+
+    Status begin(Size size) const { return sums_.size() == size.height ? Status::ok : Status::size_mismatch; }
+    void add_row(const Gray8* row, int width, int y) const {
+        sums_[y] = static_cast<std::uint32_t>(simd::sum_of_bytes(row, width));
+    }
+
+private:
+    Span<std::uint32_t> sums_;
+};
 
 }  // namespace FOVEA_ISA
 

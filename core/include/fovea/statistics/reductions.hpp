@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/fixed.hpp>
@@ -61,6 +62,17 @@ Result<std::int64_t> sum_of(ImageView<Pixel> src);
 /// Errors    empty_image, image_too_large
 inline Result<MeanAndVariance> mean_and_variance(ImageView<const Gray8> src);
 
+/// extremes_of(), sum_of() and mean_and_variance() of rows that come one at a time: accumulators for streams.
+/// What strips of a frame gave is joined by merge().
+///
+/// Errors  result() is empty_image before the first row; begin() of sums is image_too_large as the functions
+///         are
+template <class Pixel>
+class ExtremesAccumulator;
+template <class Pixel>
+class SumAccumulator;
+class MeanAndVarianceAccumulator;
+
 }  // namespace FOVEA_ISA
 
 // ---- Implementation ---------------------------------------------------------------
@@ -81,9 +93,8 @@ constexpr MeanAndVariance mean_and_variance_of(std::int64_t count, std::int64_t 
     return {mean, GrayVariance::from_raw(static_cast<std::int32_t>(round_shift(variance, 16)))};
 }
 
-template <class Pixel>
-constexpr bool has_a_large_side(ImageView<Pixel> image) {
-    return image.width() > max_image_side || image.height() > max_image_side;
+constexpr bool has_a_large_side(Size size) {
+    return size.width > max_image_side || size.height > max_image_side;
 }
 
 }  // namespace detail
@@ -161,7 +172,7 @@ Result<std::int64_t> sum_of(ImageView<Pixel> src) {
     static_assert(std::is_integral_v<Value> && sizeof(Value) <= 4,
                   "sum_of() takes pixels that are numbers of up to 32 bits");
     if (src.empty()) return Status::empty_image;
-    if (detail::has_a_large_side(src)) return Status::image_too_large;
+    if (detail::has_a_large_side(src.size())) return Status::image_too_large;
     std::int64_t sum = 0;
     const Size rows = detail::rows_of(src.size(), src);
     for (int y = 0; y < rows.height; ++y) {
@@ -173,7 +184,7 @@ Result<std::int64_t> sum_of(ImageView<Pixel> src) {
 
 inline Result<MeanAndVariance> mean_and_variance(ImageView<const Gray8> src) {
     if (src.empty()) return Status::empty_image;
-    if (detail::has_a_large_side(src)) return Status::image_too_large;
+    if (detail::has_a_large_side(src.size())) return Status::image_too_large;
     std::int64_t sum = 0;
     std::int64_t squares = 0;
     const Size rows = detail::rows_of(src.size(), src);
@@ -184,6 +195,99 @@ inline Result<MeanAndVariance> mean_and_variance(ImageView<const Gray8> src) {
     }
     return detail::mean_and_variance_of(src.size().area(), sum, squares);
 }
+
+template <class Pixel>
+class ExtremesAccumulator {
+public:
+    using Input = Pixel;
+    static_assert(std::is_integral_v<Pixel>, "extremes are of pixels that are numbers");
+
+    Status begin(Size) {
+        empty_ = true;
+        return Status::ok;
+    }
+    void add_row(const Pixel* row, int width, int) {
+        if (empty_) extremes_ = {row[0], row[0]};
+        empty_ = false;
+        kernels::add_extremes(row, width, extremes_);
+    }
+    void merge(const ExtremesAccumulator& other) {
+        if (other.empty_) return;
+        if (empty_) extremes_ = other.extremes_;
+        empty_ = false;
+        extremes_.lowest = minimum(extremes_.lowest, other.extremes_.lowest);
+        extremes_.highest = maximum(extremes_.highest, other.extremes_.highest);
+    }
+    Result<Extremes<Pixel>> result() const {
+        if (empty_) return Status::empty_image;
+        return extremes_;
+    }
+
+private:
+    Extremes<Pixel> extremes_;
+    bool empty_ = true;
+};
+
+template <class Pixel>
+class SumAccumulator {
+public:
+    using Input = Pixel;
+    static_assert(std::is_integral_v<Pixel> && sizeof(Pixel) <= 4,
+                  "sums are of pixels that are numbers of up to 32 bits");
+
+    Status begin(Size size) {
+        if (detail::has_a_large_side(size)) return Status::image_too_large;
+        *this = {};
+        return Status::ok;
+    }
+    void add_row(const Pixel* row, int width, int) {
+        sum_ += kernels::row_sum(row, width);
+        empty_ = false;
+    }
+    void merge(const SumAccumulator& other) {
+        sum_ += other.sum_;
+        empty_ = empty_ && other.empty_;
+    }
+    Result<std::int64_t> result() const {
+        if (empty_) return Status::empty_image;
+        return sum_;
+    }
+
+private:
+    std::int64_t sum_ = 0;
+    bool empty_ = true;
+};
+
+class MeanAndVarianceAccumulator {
+public:
+    using Input = Gray8;
+
+    Status begin(Size size) {
+        if (detail::has_a_large_side(size)) return Status::image_too_large;
+        *this = {};
+        return Status::ok;
+    }
+    void add_row(const Gray8* row, int width, int) {
+        const simd::ByteSums part = simd::square_sums_of_bytes(row, width);
+        sum_ += static_cast<std::int64_t>(part.sum);
+        squares_ += static_cast<std::int64_t>(part.squares);
+        count_ += width;
+    }
+    void merge(const MeanAndVarianceAccumulator& other) {
+        sum_ += other.sum_;
+        squares_ += other.squares_;
+        count_ += other.count_;
+    }
+    Result<MeanAndVariance> result() const {
+        if (count_ == 0) return Status::empty_image;
+        return detail::mean_and_variance_of(count_, sum_, squares_);
+    }
+
+private:
+    std::int64_t sum_ = 0;
+    std::int64_t squares_ = 0;
+    std::int64_t count_ = 0;
+};
 
 }  // namespace FOVEA_ISA
 }  // namespace fovea

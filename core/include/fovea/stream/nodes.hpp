@@ -4,117 +4,23 @@
 // row, and passes on what it makes of it.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
-#include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/image/border.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/image/row_kernel.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/stream/joined_node.hpp>
+#include <fovea/stream/node_base.hpp>
 #include <fovea/stream/stage.hpp>
 
 namespace fovea {
 
 namespace detail {
-
-/// Room in scratch begins where any pixel and a vector may lie.
-inline constexpr int room_alignment = 64;
-constexpr std::int64_t room(std::int64_t bytes) {
-    return (bytes + room_alignment - 1) / room_alignment * room_alignment;
-}
-
-/// Rows that a stage must be given for output rows first to last.
-struct RowRange {
-    int first = 0;
-    int last = -1;
-};
-
-template <class... Stages>
-class Nodes;
-
-/// The end of a stream: an accumulator.
-template <class Accumulator>
-class Nodes<Accumulator> {
-public:
-    using Input = typename Accumulator::Input;
-    static_assert(is_accumulator_v<Accumulator>,
-                  "the last stage of a stream must be an accumulator: into(image), "
-                  "into(histogram), moments");
-
-    Nodes() = default;
-    explicit constexpr Nodes(const Accumulator& accumulator) : accumulator_(accumulator) {}
-
-    constexpr std::int64_t scratch(int width) const {
-        return has_place_v<Accumulator> ? 0 : room(static_cast<std::int64_t>(sizeof(Input)) * width);
-    }
-    Status begin(Size size, Border, std::uint8_t* bytes, RowRange rows, RowRange& wanted) {
-        if (const Status s = accumulator_.begin(size); s != Status::ok) return s;
-        width_ = size.width;
-        y_ = rows.first;
-        row_ = reinterpret_cast<Input*>(bytes);
-        wanted = rows;
-        return Status::ok;
-    }
-    /// Where the next row is to be written.
-    Input* slot() {
-        if constexpr (has_place_v<Accumulator>)
-            return accumulator_.place(y_);
-        else
-            return row_;
-    }
-    /// The row was written to slot().
-    void pushed() {
-        if constexpr (!has_place_v<Accumulator>) accumulator_.add_row(row_, width_, y_);
-        ++y_;
-    }
-    /// The next row lies elsewhere.
-    void take(const Input* row) {
-        accumulator_.add_row(row, width_, y_);
-        ++y_;
-    }
-    static constexpr bool valid() { return true; }
-    Accumulator& accumulator() { return accumulator_; }
-    const Accumulator& accumulator() const { return accumulator_; }
-
-private:
-    Accumulator accumulator_;
-    int width_ = 0;
-    int y_ = 0;
-    Input* row_ = nullptr;
-};
-
-/// What the nodes of a window stage, a point stage and a tap are made of.
-template <class Stage, class... Rest>
-class NodeBase {
-public:
-    using Input = typename Stage::Input;
-    using Next = Nodes<Rest...>;
-    static_assert(std::is_same_v<typename Stage::Output, typename Next::Input>,
-                  "a stage of the stream makes other pixels than the next one takes");
-
-    NodeBase() = default;
-    explicit constexpr NodeBase(const Stage& stage, const Rest&... rest) : stage_(stage), next_(rest...) {}
-
-    /// False if a stage from here on has parameters that make no kernel: no memory is laid out then.
-    constexpr bool valid() const {
-        if constexpr (has_valid_v<Stage>)
-            if (!stage_.valid()) return false;
-        if constexpr (is_window_stage_v<Stage>)
-            if (stage_.rows() < 1 || stage_.rows() > max_window_rows || stage_.rows() % 2 == 0) return false;
-        return next_.valid();
-    }
-    auto& accumulator() { return next_.accumulator(); }
-    const auto& accumulator() const { return next_.accumulator(); }
-
-protected:
-    Stage stage_;
-    Next next_;
-    int width_ = 0;
-};
 
 /// A window stage: the rows of its window in a ring.
 template <class Stage, class... Rest>
@@ -128,7 +34,7 @@ public:
     using Base::Base;
     using typename Base::Input;
 
-    /// The kernel's, the ring, and a row of zeros.
+    /// The kernel's, the ring, and the row that stands outside a zero border.
     constexpr std::int64_t scratch(int width) const {
         return room(stage_.scratch(width)) + (stage_.rows() + 1) * row_room(width) + next_.scratch(width);
     }
@@ -136,7 +42,7 @@ public:
         RowRange out;
         const std::int64_t own = room(stage_.scratch(size.width));
         std::uint8_t* ring = bytes + own;
-        zeros_ = reinterpret_cast<Input*>(ring + stage_.rows() * row_room(size.width));
+        outside_ = reinterpret_cast<Input*>(ring + stage_.rows() * row_room(size.width));
         if (const Status s =
                 next_.begin(size, border, ring + (stage_.rows() + 1) * row_room(size.width), rows, out);
             s != Status::ok)
@@ -146,7 +52,9 @@ public:
         border_ = border;
         if constexpr (has_border_v<Stage>) border_ = stage_.border(border);
         memory_ = ring;
-        std::memset(reinterpret_cast<std::uint8_t*>(zeros_), 0,
+        int level = 0;
+        if constexpr (has_outside_v<Stage>) level = stage_.outside();
+        std::memset(reinterpret_cast<std::uint8_t*>(outside_), level,
                     sizeof(Input) * static_cast<std::size_t>(width_));
         kernel_ =
             stage_.kernel(border_, {bytes, static_cast<std::ptrdiff_t>(stage_.scratch(width_))}, width_);
@@ -155,6 +63,7 @@ public:
         next_in_ = wanted.first;
         next_out_ = out.first;
         last_out_ = out.last;
+        follows_ = false;
         return Status::ok;
     }
     Input* slot() { return own_row(next_in_); }
@@ -177,9 +86,14 @@ private:
             const Input* window[max_window_rows];
             for (int i = 0; i < stage_.rows(); ++i) {
                 const int y = border_index(border_, next_out_ - reach + i, height_);
-                window[i] = y == no_index ? zeros_ : ring_[place(y)];
+                window[i] = y == no_index ? outside_ : ring_[place(y)];
             }
-            kernel_(RowWindow<Input>(window, stage_.rows(), width_), next_.slot());
+            const RowWindow<Input> rows(window, stage_.rows(), width_);
+            if constexpr (keeps_rows_v<typename Stage::Kernel>)
+                kernel_(rows, follows_, next_.slot());
+            else
+                kernel_(rows, next_.slot());
+            follows_ = true;
             ++next_out_;
             next_.pushed();
         }
@@ -187,13 +101,14 @@ private:
 
     typename Stage::Kernel kernel_{};
     const Input* ring_[max_window_rows] = {};
-    Input* zeros_ = nullptr;
+    Input* outside_ = nullptr;
     std::uint8_t* memory_ = nullptr;
     Border border_ = Border::replicate;
     int height_ = 0;
     int next_in_ = 0;
     int next_out_ = 0;
     int last_out_ = -1;
+    bool follows_ = false;
 };
 
 /// A point stage: works in the row of the next stage where the pixel is the same.
@@ -210,9 +125,15 @@ public:
 
     constexpr std::int64_t scratch(int width) const { return own_room(width) + next_.scratch(width); }
     Status begin(Size size, Border border, std::uint8_t* bytes, RowRange rows, RowRange& wanted) {
+        if constexpr (has_begin_v<Stage>)
+            if (const Status s = stage_.begin(size); s != Status::ok) return s;
+        if (const Status s = next_.begin(size, border, bytes + own_room(size.width), rows, wanted);
+            s != Status::ok)
+            return s;
         width_ = size.width;
+        y_ = wanted.first;
         row_ = reinterpret_cast<Input*>(bytes);
-        return next_.begin(size, border, bytes + own_room(size.width), rows, wanted);
+        return Status::ok;
     }
     Input* slot() {
         if constexpr (in_place)
@@ -222,7 +143,11 @@ public:
     }
     void pushed() { take(slot()); }
     void take(const Input* row) {
-        stage_.row(row, width_, next_.slot());
+        if constexpr (has_row_number_v<Stage>)
+            stage_.row(row, width_, y_, next_.slot());
+        else
+            stage_.row(row, width_, next_.slot());
+        ++y_;
         next_.pushed();
     }
 
@@ -232,6 +157,7 @@ private:
         return in_place ? 0 : room(static_cast<std::int64_t>(sizeof(Input)) * width);
     }
     Input* row_ = nullptr;
+    int y_ = 0;
 };
 
 /// A tap: looks at the row where it is.
@@ -274,10 +200,34 @@ private:
     RowRange shown_;
 };
 
+/// A composite stage: the nodes of its two stages.
 template <class Stage, class... Rest>
-using NodeOf = std::conditional_t<
-    is_tap_v<Stage>, TapNode<Stage, Rest...>,
-    std::conditional_t<is_window_stage_v<Stage>, WindowNode<Stage, Rest...>, PointNode<Stage, Rest...>>>;
+class CompositeNode : public Nodes<decltype(std::declval<const Stage&>().first()),
+                                   decltype(std::declval<const Stage&>().second()), Rest...> {
+    using Base = Nodes<decltype(std::declval<const Stage&>().first()),
+                       decltype(std::declval<const Stage&>().second()), Rest...>;
+
+public:
+    CompositeNode() = default;
+    explicit constexpr CompositeNode(const Stage& stage, const Rest&... rest)
+        : Base(stage.first(), stage.second(), rest...) {}
+};
+
+template <class Stage, class... Rest>
+constexpr auto node_of() {
+    if constexpr (is_tap_v<Stage>)
+        return static_cast<TapNode<Stage, Rest...>*>(nullptr);
+    else if constexpr (is_composite_v<Stage>)
+        return static_cast<CompositeNode<Stage, Rest...>*>(nullptr);
+    else if constexpr (is_joined_v<Stage>)
+        return static_cast<JoinedNode<Stage, Rest...>*>(nullptr);
+    else if constexpr (is_window_stage_v<Stage>)
+        return static_cast<WindowNode<Stage, Rest...>*>(nullptr);
+    else
+        return static_cast<PointNode<Stage, Rest...>*>(nullptr);
+}
+template <class Stage, class... Rest>
+using NodeOf = std::remove_pointer_t<decltype(node_of<Stage, Rest...>())>;
 
 template <class Stage, class Second, class... Rest>
 class Nodes<Stage, Second, Rest...> : public NodeOf<Stage, Second, Rest...> {

@@ -3,17 +3,34 @@
 // Stages: what a stream is composed of. A stage is a small value that says what it does and what memory it
 // wants; stream() makes the moving parts of it.
 //
-// There are three kinds. A window stage makes a row from the rows around it:
-//     using Input, Output;  using Kernel;              a row kernel (image/row_kernel.hpp)
+// A window stage makes a row from the rows around it:
+//     using Input, Output;  using Kernel;              a row kernel (image/row_kernel.hpp), or one that keeps
+//                                                      what windows share: operator()(window, follows, dst),
+//                                                      where follows says that the window is one row below
+//                                                      that of the call before
 //     int rows() const;                                height of its window, odd
 //     std::int64_t scratch(int width) const;           bytes that a kernel wants
 //     Kernel kernel(Border, Span<std::uint8_t> scratch, int width) const;
 //     Border border(Border stream) const;              only where it is not that of the stream
+//     int outside() const;                             only where rows beyond a zero border hold another byte
 //     bool valid() const;                              only where some parameters make no kernel
 // A point stage has a window of one row, and a function in place of the kernel:
 //     using Input, Output;
-//     void row(const Input* src, int width, Output* dst) const;      dst may be src where both are the same
-//     pixel
+//     void row(const Input* src, int width, Output* dst) const;         dst may be src where both are the
+//     void row(const Input* src, int width, int y, Output* dst) const;  same pixel
+//     Status begin(Size size) const;                   only where it does not take every image
+//     bool valid() const;                              as above
+// A composite stage is two others, one after the other:
+//     First first() const;
+//     Second second() const;
+// A joined stage makes a row of what its own stages make and of the same row of its source:
+//     using Input, Made, Output;                       Made is what comes out of inside()
+//     Inside inside() const;                           a window, point or composite stage
+//     int kept() const;                                rows of the source that are in use at a time: one more
+//                                                      than the rows that inside() looks ahead, and not less
+//                                                      than its first window; up to max_window_rows
+//     void join(const Input* src, const Made* made, int width, Output* dst) const;
+//     bool valid() const;                              as above
 // An accumulator takes rows from top to bottom, at the end of a stream or, as tap(accumulator), on the way:
 //     using Input;
 //     Status begin(Size size);                         of the whole image; refuses what it cannot take
@@ -30,6 +47,7 @@
 #include <fovea/image/border.hpp>
 #include <fovea/image/filter_row.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/image/row_kernel.hpp>
 #include <fovea/simd/isa.hpp>
 
 namespace fovea {
@@ -121,6 +139,13 @@ inline constexpr bool is_window_stage_v = false;
 template <class Stage>
 inline constexpr bool is_window_stage_v<Stage, std::void_t<typename Stage::Kernel>> = true;
 
+template <class Kernel, class = void>
+inline constexpr bool keeps_rows_v = false;
+template <class Kernel>
+inline constexpr bool keeps_rows_v<Kernel, std::void_t<decltype(std::declval<Kernel&>()(
+                                               std::declval<const RowWindow<typename Kernel::Input>&>(), true,
+                                               static_cast<typename Kernel::Output*>(nullptr)))>> = true;
+
 template <class Stage, class = void>
 inline constexpr bool has_border_v = false;
 template <class Stage>
@@ -131,6 +156,36 @@ template <class Stage, class = void>
 inline constexpr bool has_valid_v = false;
 template <class Stage>
 inline constexpr bool has_valid_v<Stage, std::void_t<decltype(std::declval<const Stage&>().valid())>> = true;
+
+template <class Stage, class = void>
+inline constexpr bool has_outside_v = false;
+template <class Stage>
+inline constexpr bool has_outside_v<Stage, std::void_t<decltype(std::declval<const Stage&>().outside())>> =
+    true;
+
+template <class Stage, class = void>
+inline constexpr bool has_begin_v = false;
+template <class Stage>
+inline constexpr bool has_begin_v<Stage, std::void_t<decltype(std::declval<const Stage&>().begin(Size()))>> =
+    true;
+
+template <class Stage, class = void>
+inline constexpr bool has_row_number_v = false;
+template <class Stage>
+inline constexpr bool has_row_number_v<Stage, std::void_t<decltype(std::declval<const Stage&>().row(
+                                                  static_cast<const typename Stage::Input*>(nullptr), 0, 0,
+                                                  static_cast<typename Stage::Output*>(nullptr)))>> = true;
+
+template <class Stage, class = void>
+inline constexpr bool is_composite_v = false;
+template <class Stage>
+inline constexpr bool is_composite_v<Stage, std::void_t<decltype(std::declval<const Stage&>().second())>> =
+    true;
+
+template <class Stage, class = void>
+inline constexpr bool is_joined_v = false;
+template <class Stage>
+inline constexpr bool is_joined_v<Stage, std::void_t<decltype(std::declval<const Stage&>().inside())>> = true;
 
 template <class Stage>
 inline constexpr bool is_tap_v = false;
