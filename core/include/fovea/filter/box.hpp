@@ -103,7 +103,8 @@ constexpr bool is_box_element(Size element) {
 
 /// The row kernel of box(): columns are summed down the window, then neighbours across.
 ///
-/// Where a window has moved on by one row, a column's sum gains the new row and has lost the one that left.
+/// follows says that the window is one row below that of the call before: then a column's sum has lost the
+/// row that left, and gains the new one.
 class BoxRow {
 public:
     using Input = Gray8;
@@ -134,13 +135,12 @@ public:
 
     int rows() const { return element_.height; }
 
-    void operator()(const RowWindow<Gray8>& window, Gray8* dst) {
+    void operator()(const RowWindow<Gray8>& window, bool follows, Gray8* dst) {
         const int width = window.width();
-        if (moved_on(window))
+        if (follows)
             down_one(window, width);
         else
             down(window, width);
-        for (int i = 0; i < window.count(); ++i) before_[i] = window[i];
         continue_ends(width);
         if (element_.width * element_.height <= most_narrow_area) {
             add_fours(width);
@@ -165,13 +165,6 @@ private:
 
     // ---- Down ----
 
-    /// True if all rows of the window but the last are those of the window before but its first.
-    bool moved_on(const RowWindow<Gray8>& window) const {
-        if (before_[0] == nullptr) return false;
-        for (int i = 0; i + 1 < window.count(); ++i)
-            if (window[i] != before_[i + 1]) return false;
-        return true;
-    }
     void down(const RowWindow<Gray8>& window, int width) {
         simd::for_each_vector(width, [&](int x, int count) {
             simd::Words sum = simd::Words::all(0);
@@ -302,8 +295,6 @@ private:
 
     Size element_{1, 1};
     Border border_ = Border::replicate;
-    /// The rows of the window before.
-    const Gray8* before_[max_window_rows] = {};
     /// Sums of the columns, and those without the first row of the window.
     simd::WordLine columns_, remaining_;
     simd::WordLine fours_, sixteens_, coarse_sixteens_;

@@ -7,9 +7,13 @@
 //     using Input = ...;   using Output = ...;         the pixels it reads and writes
 //     int rows() const;                                the height of its window, odd
 //     void operator()(const RowWindow<Input>& window, Output* dst);
-// that makes one output row from the rows of its window. It may hold scratch; of the row before it may keep
-// what it can tell is still true by the addresses of the rows.
+// that makes one output row from the rows of its window. It may hold scratch, but nothing that survives a
+// row; one that keeps what windows share has in place of that
+//     void operator()(const RowWindow<Input>& window, bool follows, Output* dst);
+// where follows says that the window is one row below that of the call before.
 #pragma once
+
+#include <type_traits>
 
 #include <fovea/base/assert.hpp>
 #include <fovea/image/border.hpp>
@@ -41,6 +45,16 @@ private:
     int width_;
 };
 
+/// Makes a row by a kernel of either form.
+template <class Kernel, class Input, class Output>
+[[gnu::always_inline]] inline void make_row(Kernel& kernel, const RowWindow<Input>& window,
+                                            [[maybe_unused]] bool follows, Output* dst) {
+    if constexpr (std::is_invocable_v<Kernel&, const RowWindow<Input>&, bool, Output*>)
+        kernel(window, follows, dst);
+    else
+        kernel(window, dst);
+}
+
 /// Runs a row kernel over rows first..last of a frame, top to bottom; dst holds those rows alone.
 ///
 /// Shapes   src as wide as dst; dst last - first + 1 rows
@@ -60,7 +74,7 @@ void for_each_row(ImageView<const typename Kernel::Input> src, Border border, in
             const int row = border_index(border, y - rows / 2 + i, src.height());
             window[i] = row == no_index ? zeros : src.row(row);
         }
-        kernel(RowWindow<Input>(window, rows, src.width()), dst.row(y - first));
+        make_row(kernel, RowWindow<Input>(window, rows, src.width()), y > first, dst.row(y - first));
     }
 }
 

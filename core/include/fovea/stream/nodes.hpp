@@ -88,11 +88,7 @@ private:
                 const int y = border_index(border_, next_out_ - reach + i, height_);
                 window[i] = y == no_index ? outside_ : ring_[place(y)];
             }
-            const RowWindow<Input> rows(window, stage_.rows(), width_);
-            if constexpr (keeps_rows_v<typename Stage::Kernel>)
-                kernel_(rows, follows_, next_.slot());
-            else
-                kernel_(rows, next_.slot());
+            make_row(kernel_, RowWindow<Input>(window, stage_.rows(), width_), follows_, next_.slot());
             follows_ = true;
             ++next_out_;
             next_.pushed();

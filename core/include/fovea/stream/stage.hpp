@@ -4,10 +4,7 @@
 // wants; stream() makes the moving parts of it.
 //
 // A window stage makes a row from the rows around it:
-//     using Input, Output;  using Kernel;              a row kernel (image/row_kernel.hpp), or one that keeps
-//                                                      what windows share: operator()(window, follows, dst),
-//                                                      where follows says that the window is one row below
-//                                                      that of the call before
+//     using Input, Output;  using Kernel;              a row kernel (image/row_kernel.hpp)
 //     int rows() const;                                height of its window, odd
 //     std::int64_t scratch(int width) const;           bytes that a kernel wants
 //     Kernel kernel(Border, Span<std::uint8_t> scratch, int width) const;
@@ -47,7 +44,6 @@
 #include <fovea/image/border.hpp>
 #include <fovea/image/filter_row.hpp>
 #include <fovea/image/image_view.hpp>
-#include <fovea/image/row_kernel.hpp>
 #include <fovea/simd/isa.hpp>
 
 namespace fovea {
@@ -138,13 +134,6 @@ template <class Stage, class = void>
 inline constexpr bool is_window_stage_v = false;
 template <class Stage>
 inline constexpr bool is_window_stage_v<Stage, std::void_t<typename Stage::Kernel>> = true;
-
-template <class Kernel, class = void>
-inline constexpr bool keeps_rows_v = false;
-template <class Kernel>
-inline constexpr bool keeps_rows_v<Kernel, std::void_t<decltype(std::declval<Kernel&>()(
-                                               std::declval<const RowWindow<typename Kernel::Input>&>(), true,
-                                               static_cast<typename Kernel::Output*>(nullptr)))>> = true;
 
 template <class Stage, class = void>
 inline constexpr bool has_border_v = false;
