@@ -114,6 +114,7 @@ def layout(folder):
 def tidy(folder):
     faults = [("good names", "namespace fovea { class Box { int size_ = 0; public: int size() const { return size_; } }; }", None),
               ("a type in lower case", "struct crate {};", "invalid case style for struct 'crate'"),
+              ("a name that holds a stage's", "struct boxes {};", "invalid case style for struct 'boxes'"),
               ("a function in camel case", "void boxFilter();", "invalid case style for function"),
               ("a constant with k", "inline constexpr int kSize = 3;", "invalid case style for"),
               ("a private member without _", "class Box { int size = 0; };", "invalid case style for private member"),

@@ -47,9 +47,8 @@ public:
     /// Overlap  none between src and what is written
     /// Scratch  scratch(src.width()) bytes, undefined afterwards
     /// Errors   empty_image, image_too_large above max_image_side, bad_argument for a stage with parameters
-    /// that
-    ///          its function refuses, scratch_too_small, and what an accumulator says to the size: an image
-    ///          size_mismatch
+    ///          that its function refuses, scratch_too_small, and what stages and accumulators say to the
+    ///          size: an image at hand or at the end size_mismatch
     Status run(ImageView<const Input> src, Border border, Span<std::uint8_t> scratch_bytes) {
         return run_strip(src, border, 0, src.height() - 1, scratch_bytes);
     }
@@ -122,6 +121,7 @@ private:
 };
 
 /// Composes stages: stream(stages::gaussian_5x5, stages::threshold{40}, into(image)).
+/// docs/operators/stream.md lists them.
 template <class... Stages>
 constexpr Stream<Stages...> stream(const Stages&... stages) {
     return Stream<Stages...>(stages...);
