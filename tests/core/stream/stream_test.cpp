@@ -18,7 +18,9 @@
 #include <fovea/image/image_storage.hpp>
 #include <fovea/morphology/morphology.hpp>
 #include <fovea/morphology/morphology_stages.hpp>
+#include <fovea/morphology/shaped_morphology.hpp>
 #include <fovea/morphology/structuring_element.hpp>
+#include <fovea/morphology/top_hat.hpp>
 #include <fovea/pixelwise/colour_stages.hpp>
 #include <fovea/pixelwise/point_stages.hpp>
 #include <fovea/segment/adaptive_threshold.hpp>
@@ -76,6 +78,38 @@ TEST(Stream, FindsWhatIsNotInTheBackgroundInOnePass) {
     EXPECT_TRUE(equal(out.view(), expected.view()));
     EXPECT_EQ(out(25, 8), 255);
     EXPECT_EQ(out(3, 3), 0);
+}
+
+TEST(Stream, TakesTheTallestWindows) {
+    Random random(9);
+    Bytes work = bytes_of(1 << 16);
+    for (const Size size : {Size{7, 5}, Size{70, 80}}) {
+        GuardedImage<Gray8> image(size), expected(size), out(size);
+        image.fill(random);
+        const View src = std::as_const(image).view();
+        const auto expect = [&](const auto& stage, Status status) {
+            ASSERT_EQ(status, Status::ok);
+            auto program = stream(stage, into(out.view()));
+            Bytes memory = bytes_of(program.scratch(size.width));
+            ASSERT_EQ(program.run(src, Border::zero, span_of(memory)), Status::ok);
+            EXPECT_TRUE(equal(out.view(), expected.view()));
+            const int cut = size.height / 3;
+            ASSERT_EQ(program.run_strip(src, Border::zero, 0, cut, span_of(memory)), Status::ok);
+            ASSERT_EQ(program.run_strip(src, Border::zero, cut + 1, size.height - 1, span_of(memory)),
+                      Status::ok);
+            EXPECT_TRUE(equal(out.view(), expected.view()));
+        };
+        const Size element{63, 63};
+        expect(stages::erode{element}, erode(src, element, span_of(work), expected.view()));
+        expect(stages::closing{element}, closing(src, element, span_of(work), expected.view()));
+        expect(stages::top_hat{element}, top_hat(src, element, span_of(work), expected.view()));
+        expect(stages::morphological_gradient{{1, 63}},
+               morphological_gradient(src, {1, 63}, span_of(work), expected.view()));
+        expect(stages::adaptive_threshold{63, 2},
+               adaptive_threshold(src, 63, 2, span_of(work), expected.view()));
+        const StructuringElement disc = StructuringElement::disc(31);
+        expect(stages::opening_shaped{disc}, opening(src, disc, span_of(work), expected.view()));
+    }
 }
 
 TEST(Stream, RefusesASecondImageOfAnotherSize) {
