@@ -8,6 +8,7 @@
 
 #include <fovea/pixelwise/copy.hpp>
 #include <fovea/pixelwise/lookup_table.hpp>
+#include <fovea/statistics/binary_moments.hpp>
 #include <fovea/statistics/clahe.hpp>
 #include <fovea/statistics/colour_histogram.hpp>
 #include <fovea/statistics/equalize.hpp>
@@ -87,6 +88,36 @@ inline void statistics_reductions(Workspace& work, Digest& digest) {
         digest.add(sum_of(gray), sum_of(gradient), sum_of(sums));
     }
     digest.add(mean_and_variance(ImageView<const Gray8>()));
+}
+
+inline void statistics_binary_moments(Workspace& work, Digest& digest) {
+    BinaryMoments sums;
+    Random random(37);
+    for (const Size size : {Size{1, 1}, Size{3, 70}, Size{97, 40}, Size{1600, 5}, Size{max_moment_side, 1}}) {
+        const ImageView<Gray8> src = work.view<Gray8>(0, size);
+        fill_clumps(src, random);
+        const Result<Moments> found = moments_of(src);
+        digest.add(found);
+        digest.add(sums.begin(size));
+        sums.add_row(src.row(0), size.width, max_moment_side - 1);
+        digest.add(sums.moments());
+        BinaryMoments twice = sums;
+        twice.add(sums);
+        digest.add(twice.moments());
+    }
+    for (const Size size : {Size{0, 1}, Size{max_moment_side + 1, 1}, Size{1, max_moment_side + 1}})
+        digest.add(sums.begin(size));
+    digest.add(moments_of(ImageView<const Gray8>()));
+    Histogram part;
+    Histogram whole;
+    for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8>) {
+        digest.add(part.begin(src.size()), whole.begin({1, 1}));
+        for (int y = 0; y < src.height(); ++y) part.add_row(src.row(y), src.width(), y);
+        whole.add(part);
+        whole.add(part);
+        for (int level = 0; level < whole.size(); ++level) digest.add(whole[level]);
+    });
+    digest.add(part.begin({}));
 }
 
 inline void statistics_projection(Workspace& work, Digest& digest) {

@@ -63,6 +63,7 @@ inline constexpr Vector vectors[] = {
     {"pixelwise/threshold", pixelwise_threshold},
     {"pixelwise/to_gray", pixelwise_to_gray},
     {"pixelwise/video", pixelwise_video},
+    {"statistics/binary_moments", statistics_binary_moments},
     {"statistics/distances", statistics_distances},
     {"statistics/histogram", statistics_histogram},
     {"statistics/integral", statistics_integral},
