@@ -14,6 +14,7 @@
 #include <fovea/statistics/equalize.hpp>
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/statistics/histogram_distance.hpp>
+#include <fovea/statistics/hu_moments.hpp>
 #include <fovea/statistics/integral_image.hpp>
 #include <fovea/statistics/projection.hpp>
 #include <fovea/statistics/reductions.hpp>
@@ -118,6 +119,34 @@ inline void statistics_binary_moments(Workspace& work, Digest& digest) {
         for (int level = 0; level < whole.size(); ++level) digest.add(whole[level]);
     });
     digest.add(part.begin({}));
+}
+
+inline void put(Digest& digest, Scaled number) {
+    digest.add(number.mantissa(), number.exponent());
+    digest.add(number.rounded(40), number.negative(), number.zero());
+    digest.add(log2_of(number));
+}
+
+inline void statistics_hu_moments(Workspace& work, Digest& digest) {
+    Random random(38);
+    for (const Size size : {Size{1, 1}, Size{3, 70}, Size{97, 40}, Size{1600, 5}}) {
+        const ImageView<Gray8> src = work.view<Gray8>(0, size);
+        fill_clumps(src, random);
+        const Result<Moments> found = moments_of(src);
+        const Result<HuMoments> hu = hu_moments(*found);
+        digest.add(hu.status());
+        if (hu)
+            for (const Scaled& number : hu->h) digest.add(number);
+        const Result<NormalizedMoments> n = normalized_moments(*found);
+        digest.add(n.status());
+        if (n) digest.add(n->eta20, n->eta11, n->eta02, n->eta30, n->eta21, n->eta12, n->eta03);
+    }
+    for (int i = 0; i < 100; ++i) {
+        const Scaled a = Scaled::from_int(std::int64_t{random.between(-1000000, 1000000)} << (i % 40));
+        const Scaled b = Scaled::from_int(Int128::product(random.next() + 1, std::int64_t{1} << (i % 60)));
+        digest.add(a + b, a - b, a * b, a / b, -a, root_of(random.next()));
+        digest.add(a == b, a != b);
+    }
 }
 
 inline void statistics_projection(Workspace& work, Digest& digest) {

@@ -66,6 +66,7 @@ inline constexpr Vector vectors[] = {
     {"statistics/binary_moments", statistics_binary_moments},
     {"statistics/distances", statistics_distances},
     {"statistics/histogram", statistics_histogram},
+    {"statistics/hu_moments", statistics_hu_moments},
     {"statistics/integral", statistics_integral},
     {"statistics/masked_histogram", statistics_masked_histogram},
     {"statistics/moments", statistics_moments},

@@ -2,6 +2,7 @@
 #include <fovea/pixelwise/threshold.hpp>
 #include <fovea/statistics/binary_moments.hpp>
 #include <fovea/statistics/histogram.hpp>
+#include <fovea/statistics/hu_moments.hpp>
 
 #include <bench/harness.hpp>
 #include <bench/opencv.hpp>
@@ -54,6 +55,18 @@ const bool moments_added = add(23, "moments of a binary image", Sizes::vga_and_f
     row.ours([&] { consume(moments_of(src.view())); });
 #if defined(FOVEA_HAVE_OPENCV)
     row.peer("OpenCV", [a = mat(src)] { consume(cv::moments(a, true)); });
+#endif
+});
+
+const bool hu_added = add(24, "moments of a binary image, Hu's invariants", Sizes::vga, [](Row& row) {
+    auto& src = row.keep(blobs(row.size()));
+    row.ours([&] { consume(hu_moments(*moments_of(src.view()))); });
+#if defined(FOVEA_HAVE_OPENCV)
+    row.peer("OpenCV", [a = mat(src)] {
+        double hu[7];
+        cv::HuMoments(cv::moments(a, true), hu);
+        consume(hu);
+    });
 #endif
 });
 
