@@ -80,6 +80,7 @@ inline constexpr Vector vectors[] = {
     {"warp/bilinear", warp_bilinear},
     {"warp/homographies", warp_homographies},
     {"warp/maps", warp_maps},
+    {"warp/polar_places", warp_polar_places},
     {"warp/transforms", warp_transforms},
     {"segment/connected_components", segment_connected_components},
     {"segment/contours", segment_contours},
