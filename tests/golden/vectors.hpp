@@ -74,6 +74,7 @@ inline constexpr Vector vectors[] = {
     {"statistics/polygon_symmetry", statistics_polygon_symmetry},
     {"statistics/projection", statistics_projection},
     {"statistics/reductions", statistics_reductions},
+    {"morphology/bits", morphology_bits},
     {"morphology/rectangles", morphology_rectangles},
     {"morphology/shapes", morphology_shapes},
     {"morphology/thinning", morphology_thinning},
