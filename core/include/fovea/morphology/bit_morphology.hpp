@@ -3,7 +3,9 @@
 // Erosion and dilation of binary images of one bit a pixel: 32 pixels a word. Book sec. 2.7.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
@@ -11,6 +13,7 @@
 #include <fovea/image/geometry.hpp>
 #include <fovea/morphology/morphology.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/simd/bits.hpp>
 #include <fovea/simd/isa.hpp>
 
 namespace fovea {
@@ -46,16 +49,32 @@ inline Status dilate_cross(BitView<const BitWord> src, Size element, Span<BitWor
 
 namespace kernels {
 
-/// What all pixels of a window have; pixels that do not count are set.
+/// What all pixels of a window have; pixels that do not count are set. Of one word or of many.
 struct AllBits {
     static constexpr BitWord neutral = ~BitWord{0};
-    static constexpr BitWord of(BitWord a, BitWord b) { return a & b; }
+    template <class Piece>
+    [[gnu::always_inline]] static Piece of(Piece a, Piece b) {
+        return a & b;
+    }
 };
 /// What one of them has.
 struct AnyBit {
     static constexpr BitWord neutral = 0;
-    static constexpr BitWord of(BitWord a, BitWord b) { return a | b; }
+    template <class Piece>
+    [[gnu::always_inline]] static Piece of(Piece a, Piece b) {
+        return a | b;
+    }
 };
+
+/// Words of a line moved to the right and to the left by 1 to 31 pixels: those before and behind come in.
+template <class Piece>
+[[gnu::always_inline]] inline Piece earlier_bits(const BitWord* at, int by) {
+    return simd::load_piece<Piece>(at) << by | simd::load_piece<Piece>(at - 1) >> (bits_a_word - by);
+}
+template <class Piece>
+[[gnu::always_inline]] inline Piece later_bits(const BitWord* at, int by) {
+    return simd::load_piece<Piece>(at) >> by | simd::load_piece<Piece>(at + 1) << (bits_a_word - by);
+}
 
 /// A row of bits with a word in front of it and one behind it that do not count.
 template <class Of>
@@ -77,29 +96,43 @@ public:
 
     /// dst = the windows of width pixels around each pixel; uses the line up.
     void across(int width, BitWord* dst) {
-        // A word comes to hold the windows that begin at its pixels: of one pixel, then of twice as many.
-        // Those that begin up to a word before the row are held too.
-        int length = 1;
-        for (; 2 * length <= width; length *= 2)
-            for (int i = -1; i < count_; ++i)
-                words_[i] = Of::of(words_[i], words_[i] >> length | words_[i + 1] << (bits_a_word - length));
-        // Two such windows, which meet or overlap, are the one around a pixel.
-        const int reach = width / 2;
-        const int second = length - 1 - reach;
-        if (reach == 0) {
-            for (int i = 0; i < count_; ++i) dst[i] = words_[i];
-        } else if (second <= 0) {
-            for (int i = 0; i < count_; ++i) dst[i] = Of::of(earlier(i, reach), words_[i]);
-        } else {
-            for (int i = 0; i < count_; ++i) dst[i] = Of::of(earlier(i, reach), earlier(i, second));
+        BitWord* const line = words_;
+        const auto word = [line](int i, auto kind) { return simd::load_piece<decltype(kind)>(line + i); };
+        const auto earlier = [line](int i, int by, auto kind) {
+            return earlier_bits<decltype(kind)>(line + i, by);
+        };
+        const auto later = [line](int i, int by, auto kind) {
+            return later_bits<decltype(kind)>(line + i, by);
+        };
+        const auto make = [&](auto make_one) { simd::make_words(0, count_, dst, make_one); };
+        if (width == 1) make(word);
+        if (width == 3)
+            make([=](int i, auto kind) {
+                return Of::of(word(i, kind), Of::of(earlier(i, 1, kind), later(i, 1, kind)));
+            });
+        if (width > 3) {
+            // A word comes to hold the windows that begin at its pixels: of one pixel, then of twice as many.
+            // Those that begin up to a word before the row are held too.
+            int length = 1;
+            for (; 2 * length <= width; length *= 2)
+                simd::make_words(-1, count_, line, [=](int i, auto kind) {
+                    return Of::of(word(i, kind), later(i, length, kind));
+                });
+            // Two such windows, which meet or overlap, are the one around a pixel: they begin so many pixels
+            // before it.
+            const int reach = width / 2;
+            const int second = length - 1 - reach;
+            if (second == 0)
+                make([=](int i, auto kind) { return Of::of(earlier(i, reach, kind), word(i, kind)); });
+            else
+                make([=](int i, auto kind) {
+                    return Of::of(earlier(i, reach, kind), earlier(i, second, kind));
+                });
         }
         dst[count_ - 1] &= last_;
     }
 
 private:
-    /// The windows that begin 1 to 31 pixels before those of word i.
-    BitWord earlier(int i, int by) const { return words_[i] << by | words_[i - 1] >> (bits_a_word - by); }
-
     BitWord* words_;
     int count_;
     BitWord ground_;
@@ -112,17 +145,24 @@ void bits_down(BitView<const BitWord> src, int y, int height, BitWord* to) {
     const int words = bit_words(src.width());
     const int first = maximum(y - height / 2, 0);
     const int last = minimum(y + height / 2, src.height() - 1);
-    const BitWord* row = src.row(first);
-    if (last == first + 2) {
-        const BitWord* second = src.row(first + 1);
-        const BitWord* third = src.row(last);
-        for (int i = 0; i < words; ++i) to[i] = Of::of(Of::of(row[i], second[i]), third[i]);
-        return;
-    }
-    for (int i = 0; i < words; ++i) to[i] = row[i];
-    for (int k = first + 1; k <= last; ++k) {
-        row = src.row(k);
-        for (int i = 0; i < words; ++i) to[i] = Of::of(to[i], row[i]);
+    // A row twice is that row: near the end of the image and of the column the last one fills up.
+    const auto row = [&](int k) { return src.row(minimum(k, last)); };
+    const BitWord* a = row(first);
+    const BitWord* b = row(first + 1);
+    const BitWord* c = row(first + 2);
+    simd::make_words(0, words, to, [=](int i, auto kind) {
+        using Piece = decltype(kind);
+        return Of::of(simd::load_piece<Piece>(a + i),
+                      Of::of(simd::load_piece<Piece>(b + i), simd::load_piece<Piece>(c + i)));
+    });
+    for (int k = first + 3; k <= last; k += 2) {
+        a = row(k);
+        b = row(k + 1);
+        simd::make_words(0, words, to, [=](int i, auto kind) {
+            using Piece = decltype(kind);
+            return Of::of(simd::load_piece<Piece>(to + i),
+                          Of::of(simd::load_piece<Piece>(a + i), simd::load_piece<Piece>(b + i)));
+        });
     }
 }
 
@@ -154,13 +194,16 @@ Status bit_cross(BitView<const BitWord> src, Size element, Span<BitWord> scratch
     const int words = bit_words(src.width());
     const BitWord last = last_bits(src.width());
     for (int y = 0; y < src.height(); ++y) {
-        bits_down<Of>(src, y, 1, line.words());
+        std::memcpy(line.words(), src.row(y), sizeof(BitWord) * static_cast<std::size_t>(words));
         line.close();
         BitWord* to = dst.row(y);
         line.across(element.width, to);
         bits_down<Of>(src, y, element.height, line.words());
         const BitWord* column = line.words();
-        for (int i = 0; i < words; ++i) to[i] = Of::of(to[i], column[i]);
+        simd::make_words(0, words, to, [=](int i, auto kind) {
+            using Piece = decltype(kind);
+            return Of::of(simd::load_piece<Piece>(to + i), simd::load_piece<Piece>(column + i));
+        });
         to[words - 1] &= last;
     }
     return Status::ok;

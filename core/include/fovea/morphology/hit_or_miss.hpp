@@ -15,9 +15,11 @@
 #include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
+#include <fovea/morphology/bit_morphology.hpp>
 #include <fovea/morphology/shaped_morphology.hpp>
 #include <fovea/morphology/structuring_element.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/simd/bits.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
 
@@ -76,15 +78,19 @@ inline void hits_of_row(const Gray8* other, int width, Gray8* to) {
 /// Those of nine pixels around a word's pixels that a row of a pattern asks for must be set in a line of
 /// bits.
 inline void match_bits(const BitWord* line, std::uint32_t places, int middle, int words, BitWord* to) {
+    const auto match = [&](auto moved) {
+        simd::make_words(0, words, to, [&](int i, auto kind) {
+            return simd::load_piece<decltype(kind)>(to + i) & moved(line + i, kind);
+        });
+    };
     for (int x = 0; x < 3; ++x) {
         if ((places >> x & 1) == 0) continue;
-        const int step = x - middle;
-        if (step < 0)
-            for (int i = 0; i < words; ++i) to[i] &= line[i] << 1 | line[i - 1] >> (bits_a_word - 1);
-        else if (step == 0)
-            for (int i = 0; i < words; ++i) to[i] &= line[i];
+        if (x < middle)
+            match([](const BitWord* at, auto kind) { return earlier_bits<decltype(kind)>(at, 1); });
+        else if (x == middle)
+            match([](const BitWord* at, auto kind) { return simd::load_piece<decltype(kind)>(at); });
         else
-            for (int i = 0; i < words; ++i) to[i] &= line[i] >> 1 | line[i + 1] << (bits_a_word - 1);
+            match([](const BitWord* at, auto kind) { return later_bits<decltype(kind)>(at, 1); });
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// 32 bytes as 32 bits and back: bit i of the word is that of byte i, on every machine.
+// 32 bytes as 32 bits and back: bit i of the word is that of byte i, on every machine. And as many words of
+// bits as fit a vector.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,32 @@
 namespace fovea {
 inline namespace FOVEA_ISA {
 namespace simd {
+
+#if FOVEA_BYTES >= 8
+using WordPiece = RawQuads;
+#else
+using WordPiece = std::uint32_t;
+#endif
+inline constexpr int piece_words = FOVEA_BYTES / 4;
+
+/// Words from a place on: a piece of them, or one.
+template <class Piece>
+[[gnu::always_inline]] inline Piece load_piece(const std::uint32_t* from) {
+    Piece piece;
+    std::memcpy(&piece, from, sizeof piece);
+    return piece;
+}
+/// to[i] = make(i, kind) for words first to end - 1, a piece at a time and then one by one: kind has the type
+/// of what is to be made of the words from i on. What is made may stand where something behind it was read.
+template <class Make>
+[[gnu::always_inline]] inline void make_words(int first, int end, std::uint32_t* to, Make make) {
+    int i = first;
+    for (; i + piece_words <= end; i += piece_words) {
+        const WordPiece piece = make(i, WordPiece{});
+        std::memcpy(to + i, &piece, sizeof piece);
+    }
+    for (; i < end; ++i) to[i] = make(i, std::uint32_t{});
+}
 
 #if FOVEA_BYTES >= 32 && defined(__AVX2__)
 
