@@ -10,6 +10,7 @@
 #include <fovea/base/arena.hpp>
 #include <fovea/feature/canny.hpp>
 #include <fovea/feature/canny_points.hpp>
+#include <fovea/feature/find_circles.hpp>
 #include <fovea/feature/hough_circles.hpp>
 #include <fovea/feature/hough_lines.hpp>
 #include <fovea/feature/line_segments.hpp>
@@ -72,6 +73,27 @@ inline void feature_hough_lines(Workspace& work, Digest& digest) {
     for (const Size size : {Size{0, 3}, Size{32767, 32767}, Size{111, 75}})
         digest.add(hough_lines_directed(points.view().span(), size, options, arena.rest(), lines.view()),
                    lines.view());
+}
+
+inline void feature_find_circles(Workspace& work, Digest& digest) {
+    const ImageView<Gray8> src = part_picture(work, 0);
+    List<HoughCircle, 3> circles;
+    FindCirclesOptions options;
+    options.circles.min_radius = 3;
+    options.circles.max_radius = 30;
+    options.circles.min_votes = 12;
+    options.max_points = 500;
+    for (const EdgeSmoothing smoothing :
+         {EdgeSmoothing::none, EdgeSmoothing::gaussian_3x3, EdgeSmoothing::gaussian_5x5}) {
+        options.smoothing = smoothing;
+        // Its bytes differ by the width of a vector.
+        const std::int64_t scratch = find_circles_scratch(src.size(), options);
+        digest.add(scratch > 0, scratch <= work.scratch_span().size());
+        digest.add(find_circles(src, options, work.scratch_span(), circles.view()), circles.view());
+        options.max_points = 120;
+    }
+    options.low = 200;
+    digest.add(find_circles(src, options, work.scratch_span(), circles.view()));
 }
 
 inline void feature_hough_circles(Workspace& work, Digest& digest) {

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Golden vectors of morphology/ that the catalogue does not make: elements of any shape, and all passes of
-// thinning.
+// Golden vectors of morphology/ that the catalogue does not make: elements of any shape, images of bits, and
+// all passes of thinning.
 #pragma once
 
 #include <cstdint>
 
+#include <fovea/base/arena.hpp>
+#include <fovea/image/bit_view.hpp>
+#include <fovea/morphology/bit_morphology.hpp>
+#include <fovea/morphology/hit_or_miss.hpp>
 #include <fovea/morphology/shaped_morphology.hpp>
 #include <fovea/morphology/structuring_element.hpp>
 #include <fovea/morphology/thinning.hpp>
+#include <fovea/pixelwise/bits.hpp>
 #include <golden/digest.hpp>
 #include <golden/workspace.hpp>
 
@@ -40,6 +45,47 @@ inline void morphology_shapes(Workspace& work, Digest& digest) {
         for (const StructuringElement& element :
              {hook, StructuringElement::cross({3, 3}), StructuringElement::disc(9), StructuringElement()})
             run(src, dst, element);
+    });
+}
+
+inline void put(Digest& digest, BitView<BitWord> bits) {
+    digest.add(bits.size(), bits.stride_words(), last_bits(bits.width()));
+    for (int y = 0; y < bits.height(); ++y)
+        for (int i = 0; i < bit_words(bits.width()); ++i) digest.add(bits.row(y)[i]);
+}
+
+/// Bits in an arena; their rows are a word apart.
+inline BitView<BitWord> arena_bits(Arena& arena, Size size) {
+    const std::ptrdiff_t stride = bit_words(size.width) + 1;
+    return *bit_view_over<BitWord>(arena.take<BitWord>(stride * size.height), size, stride);
+}
+
+inline void morphology_bits(Workspace& work, Digest& digest) {
+    for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8> dst) {
+        Arena arena(work.scratch_span());
+        const BitView<BitWord> a = arena_bits(arena, src.size());
+        const BitView<BitWord> b = arena_bits(arena, src.size());
+        const BitView<BitWord> c = arena_bits(arena, src.size());
+        const Span<BitWord> scratch = arena.take<BitWord>(bit_erode_scratch(src.size()));
+        digest.add(bit_dilate_scratch(src.size()), bit_hit_or_miss_scratch(src.size()));
+        digest.add(pack_bits(src, 100, a), a);
+        digest.add(pack_bits(src, b), b);
+        digest.add(bitwise_xor(a, b, c), c);
+        digest.add(bitwise_and_not(b, a, c), c);
+        digest.add(bitwise_and(a, b, b), b);
+        digest.add(invert(b, b), b);
+        digest.add(bitwise_or(a, c, b), b);
+        digest.add(count_bits(a), count_bits(b));
+        for (const Size element : {Size{3, 3}, Size{1, 7}, Size{33, 5}, Size{4, 3}}) {
+            digest.add(erode(a, element, scratch, c), c);
+            digest.add(dilate(a, element, scratch, c), c);
+            digest.add(erode_cross(a, element, scratch, c), c);
+            digest.add(dilate_cross(a, element, scratch, c), c);
+        }
+        const auto hit = StructuringElement::from_text("...\n.##\n.#.");
+        const auto miss = StructuringElement::from_text("##.\n#..\n...");
+        digest.add(hit_or_miss(a, hit, miss, scratch, c), c);
+        digest.add(unpack_bits(c, dst), dst);
     });
 }
 

@@ -8,11 +8,13 @@
 
 #include <fovea/pixelwise/copy.hpp>
 #include <fovea/pixelwise/lookup_table.hpp>
+#include <fovea/statistics/binary_moments.hpp>
 #include <fovea/statistics/clahe.hpp>
 #include <fovea/statistics/colour_histogram.hpp>
 #include <fovea/statistics/equalize.hpp>
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/statistics/histogram_distance.hpp>
+#include <fovea/statistics/hu_moments.hpp>
 #include <fovea/statistics/integral_image.hpp>
 #include <fovea/statistics/projection.hpp>
 #include <fovea/statistics/reductions.hpp>
@@ -87,6 +89,64 @@ inline void statistics_reductions(Workspace& work, Digest& digest) {
         digest.add(sum_of(gray), sum_of(gradient), sum_of(sums));
     }
     digest.add(mean_and_variance(ImageView<const Gray8>()));
+}
+
+inline void statistics_binary_moments(Workspace& work, Digest& digest) {
+    BinaryMoments sums;
+    Random random(37);
+    for (const Size size : {Size{1, 1}, Size{3, 70}, Size{97, 40}, Size{1600, 5}, Size{max_moment_side, 1}}) {
+        const ImageView<Gray8> src = work.view<Gray8>(0, size);
+        fill_clumps(src, random);
+        const Result<Moments> found = moments_of(src);
+        digest.add(found);
+        digest.add(sums.begin(size));
+        sums.add_row(src.row(0), size.width, max_moment_side - 1);
+        digest.add(sums.moments());
+        BinaryMoments twice = sums;
+        twice.add(sums);
+        digest.add(twice.moments());
+    }
+    for (const Size size : {Size{0, 1}, Size{max_moment_side + 1, 1}, Size{1, max_moment_side + 1}})
+        digest.add(sums.begin(size));
+    digest.add(moments_of(ImageView<const Gray8>()));
+    Histogram part;
+    Histogram whole;
+    for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8>) {
+        digest.add(part.begin(src.size()), whole.begin({1, 1}));
+        for (int y = 0; y < src.height(); ++y) part.add_row(src.row(y), src.width(), y);
+        whole.add(part);
+        whole.add(part);
+        for (int level = 0; level < whole.size(); ++level) digest.add(whole[level]);
+    });
+    digest.add(part.begin({}));
+}
+
+inline void put(Digest& digest, Scaled number) {
+    digest.add(number.mantissa(), number.exponent());
+    digest.add(number.rounded(40), number.negative(), number.zero());
+    digest.add(log2_of(number));
+}
+
+inline void statistics_hu_moments(Workspace& work, Digest& digest) {
+    Random random(38);
+    for (const Size size : {Size{1, 1}, Size{3, 70}, Size{97, 40}, Size{1600, 5}}) {
+        const ImageView<Gray8> src = work.view<Gray8>(0, size);
+        fill_clumps(src, random);
+        const Result<Moments> found = moments_of(src);
+        const Result<HuMoments> hu = hu_moments(*found);
+        digest.add(hu.status());
+        if (hu)
+            for (const Scaled& number : hu->h) digest.add(number);
+        const Result<NormalizedMoments> n = normalized_moments(*found);
+        digest.add(n.status());
+        if (n) digest.add(n->eta20, n->eta11, n->eta02, n->eta30, n->eta21, n->eta12, n->eta03);
+    }
+    for (int i = 0; i < 100; ++i) {
+        const Scaled a = Scaled::from_int(std::int64_t{random.between(-1000000, 1000000)} << (i % 40));
+        const Scaled b = Scaled::from_int(Int128::product(random.next() + 1, std::int64_t{1} << (i % 60)));
+        digest.add(a + b, a - b, a * b, a / b, -a, root_of(random.next()));
+        digest.add(a == b, a != b);
+    }
 }
 
 inline void statistics_projection(Workspace& work, Digest& digest) {

@@ -10,6 +10,7 @@
 #include <fovea/warp/affine.hpp>
 #include <fovea/warp/from_points.hpp>
 #include <fovea/warp/homography.hpp>
+#include <fovea/warp/polar.hpp>
 #include <fovea/warp/remap.hpp>
 #include <golden/digest.hpp>
 #include <golden/workspace.hpp>
@@ -25,6 +26,31 @@ inline void put(Digest& digest, const Homography& h) {
 inline FinePoint warp_place(Random& random, int side) {
     return {FinePixel::from_raw(random.between(0, side * 65536)),
             FinePixel::from_raw(random.between(0, side * 65536))};
+}
+
+inline void warp_polar_places(Workspace& work, Digest& digest) {
+    Random random(46);
+    for (int i = 0; i < 200; ++i) {
+        PolarFrame frame;
+        frame.centre = warp_place(random, i % 2 == 0 ? 500 : 32000);
+        frame.inner = FinePixel::from_raw(random.between(-100, 1 << (i % 30)));
+        frame.outer = FinePixel::from_raw(random.between(0, 1 << 30));
+        frame.scale = i % 3 == 0 ? RadiusScale::linear : RadiusScale::logarithmic;
+        frame.start = FineAngle::from_raw(random.next());
+        const Size size{random.between(1, 700), random.between(1, 700)};
+        digest.add(
+            polar_place(frame, size, {random.between(-1, size.width), random.between(0, size.height)}));
+        digest.add(polar_place(frame, size, {random.between(0, size.width - 1), 0}));
+    }
+    const ImageView<Gray8> src = part_picture(work, 0);
+    const ImageView<Rgb888> colour = work.view<Rgb888>(1, {40, 30});
+    const ImageView<Rgb888> rings = work.view<Rgb888>(2, {50, 20});
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x) colour(x, y) = {src(x, y), src(2 * x, y), src(x, 2 * y)};
+    PolarFrame frame;
+    frame.centre = {FinePixel::from_ratio(39, 2), FinePixel::from_ratio(29, 3)};
+    frame.outer = FinePixel::from_int(25);
+    digest.add(warp_polar<Rgb888>(colour, frame, {}, work.scratch_span(), rings), rings);
 }
 
 inline void warp_transforms(Workspace& work, Digest& digest) {

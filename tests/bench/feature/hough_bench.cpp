@@ -3,6 +3,7 @@
 
 #include <fovea/feature/canny.hpp>
 #include <fovea/feature/canny_points.hpp>
+#include <fovea/feature/find_circles.hpp>
 #include <fovea/feature/hough_circles.hpp>
 #include <fovea/feature/hough_lines.hpp>
 #include <fovea/feature/line_segments.hpp>
@@ -126,6 +127,28 @@ const bool circles_added = add(2020, "Hough circles of 10..100 px, with Canny", 
         consume(canny_points(src.view(), edges.view(), Border::replicate, found.point_list()));
         consume(hough_circles(found.point_span(), size, options, span_of(found.scratch),
                               Found::list(circles, count)));
+    });
+#if defined(FOVEA_HAVE_OPENCV)
+    row.peer("OpenCV", [a = mat(src), found = std::vector<cv::Vec3f>()]() mutable {
+        cv::HoughCircles(a, found, cv::HOUGH_GRADIENT, 2, 10, 150, 60, 10, 100);
+    });
+#endif
+});
+
+/// The same in one call, without smoothing, which OpenCV's function does not do either.
+const bool finder_added = add(2021, "find_circles, 10..100 px", Sizes::vga_and_full_hd, [](Row& row) {
+    auto& src = row.keep(part(row.size()));
+    auto& circles = row.keep(std::vector<HoughCircle>(100));
+    auto& count = row.keep(0);
+    FindCirclesOptions options;
+    options.smoothing = EdgeSmoothing::none;
+    options.low = 75;
+    options.high = 150;
+    options.max_points = 40000;
+    options.circles.min_share = Ratio::from_ratio(1, 2);
+    auto& scratch = row.keep(bytes(find_circles_scratch(row.size(), options)));
+    row.ours([&, options] {
+        must_be_ok(find_circles(src.view(), options, span_of(scratch), Found::list(circles, count)));
     });
 #if defined(FOVEA_HAVE_OPENCV)
     row.peer("OpenCV", [a = mat(src), found = std::vector<cv::Vec3f>()]() mutable {

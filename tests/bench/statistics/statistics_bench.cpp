@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fovea/pixelwise/threshold.hpp>
-#include <fovea/segment/runs.hpp>
+#include <fovea/statistics/binary_moments.hpp>
 #include <fovea/statistics/histogram.hpp>
-#include <fovea/statistics/moments.hpp>
+#include <fovea/statistics/hu_moments.hpp>
 
 #include <bench/harness.hpp>
 #include <bench/opencv.hpp>
@@ -52,19 +52,21 @@ const bool otsu_added = add(22, "histogram, otsu, threshold", Sizes::vga_and_ful
 
 const bool moments_added = add(23, "moments of a binary image", Sizes::vga_and_full_hd, [](Row& row) {
     auto& src = row.keep(blobs(row.size()));
-    auto& runs = row.keep(std::vector<Run>(static_cast<std::size_t>(row.size().width) + 1));
-    row.ours([&] {
-        RunRow cut({runs.data(), static_cast<std::ptrdiff_t>(runs.size())});
-        Moments moments;
-        for (int y = 0; y < src.view().height(); ++y) {
-            consume(cut.split(src.view().row(y), src.view().width()));
-            for (int i = 0; i < cut.count(); ++i)
-                if (cut.is_region(i)) moments.add_run(cut[i].first, cut.end(i), y);
-        }
-        consume(moments);
-    });
+    row.ours([&] { consume(moments_of(src.view())); });
 #if defined(FOVEA_HAVE_OPENCV)
     row.peer("OpenCV", [a = mat(src)] { consume(cv::moments(a, true)); });
+#endif
+});
+
+const bool hu_added = add(24, "moments of a binary image, Hu's invariants", Sizes::vga, [](Row& row) {
+    auto& src = row.keep(blobs(row.size()));
+    row.ours([&] { consume(hu_moments(*moments_of(src.view()))); });
+#if defined(FOVEA_HAVE_OPENCV)
+    row.peer("OpenCV", [a = mat(src)] {
+        double hu[7];
+        cv::HuMoments(cv::moments(a, true), hu);
+        consume(hu);
+    });
 #endif
 });
 

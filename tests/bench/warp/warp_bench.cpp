@@ -47,9 +47,16 @@ Peer projective() {
         cv::warpPerspective(in[0], out, matrix, out.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
     });
 }
+/// As in the lines below; OpenCV's radii are exp(k x) - 1 where ours begin at the inner one.
+Peer polar([[maybe_unused]] int how) {
+    return FOVEA_OPENCV_KEEPING(
+        =, cv::warpPolar(in[0], out, out.size(),
+                         cv::Point2f(static_cast<float>(in[0].cols) / 2, static_cast<float>(in[0].rows) / 2),
+                         240, how));
+}
 Peer smaller() { return FOVEA_OPENCV(cv::pyrDown(in[0], out, out.size(), cv::BORDER_REPLICATE)); }
 Peer larger() { return FOVEA_OPENCV(cv::pyrUp(in[0], out)); }
-[[maybe_unused]] constexpr int nearest_pixel = 0, linear = 1, cubic = 2, area = 3;
+[[maybe_unused]] constexpr int nearest_pixel = 0, linear = 1, cubic = 2, area = 3, logarithmic = 256;
 
 const bool lines[] = {
     add_operator(1600, "flip_x", Sizes::vga_and_full_hd, {}, flipped(1)),
@@ -68,6 +75,10 @@ const bool lines[] = {
                  {900, 200, -100, 1100, 2, 2, bilinear, constant}, affine()),
     add_operator(1614, "warp_homography", Sizes::vga_and_full_hd,
                  {150, -120, 100, -50, 2, 2, bilinear, constant}, projective()),
+    add_operator(1615, "polar", Sizes::vga, {640, 480, 1, 240, bilinear, constant, 0}, polar(linear),
+                 "polar"),
+    add_operator(1616, "log_polar", Sizes::vga, {640, 480, 1, 240, bilinear, constant, 0},
+                 polar(linear | logarithmic), "log_polar"),
     add_operator(1630, "resize_nearest", Sizes::vga, {467, 350}, resized(nearest_pixel),
                  "resize_nearest to 467x350"),
     add_operator(1631, "resize_bilinear", Sizes::vga, {467, 350}, resized(linear),

@@ -88,6 +88,39 @@ TEST(HoughCircles, AboutOneCentreAreAllFound) {
     EXPECT_EQ(circles.count, 2);
 }
 
+TEST(HoughCircles, AreThoseOfThePointsInAnyOrder) {
+    Random random(155);
+    std::vector<EdgePoint> points;
+    for (int i = 0; i < 6; ++i)
+        add_arc(points, random.between(30, 270), random.between(30, 370), random.between(11, 60));
+    for (int i = 0; i < 500; ++i)
+        points.push_back(point_at(random.between(0, 299), random.between(0, 399), random.between(0, 6)));
+    std::vector<EdgePoint> rows;  // those inside, row by row, with what a place may be off its row
+    for (const EdgePoint& point : points)
+        if (point.place.x.raw() >= 0 && point.place.y.raw() >= 0 && point.place.x.round() < 299 &&
+            point.place.y.round() < 399)
+            rows.push_back(point);
+    std::stable_sort(rows.begin(), rows.end(), [](const EdgePoint& a, const EdgePoint& b) {
+        return a.place.y.round() < b.place.y.round();
+    });
+    std::vector<EdgePoint> mixed = rows;
+    for (std::size_t i = mixed.size(); i > 1; --i)
+        std::swap(mixed[i - 1], mixed[random.below(static_cast<std::uint32_t>(i))]);
+    Circles a(16), b(16);
+    HoughCircleOptions options;
+    options.min_votes = 30;
+    ASSERT_EQ(find(rows, {300, 400}, options, a), Status::ok);
+    ASSERT_EQ(find(mixed, {300, 400}, options, b), Status::ok);
+    ASSERT_EQ(a.count, b.count);
+    ASSERT_GE(a.count, 4);
+    for (int i = 0; i < a.count; ++i) {
+        EXPECT_EQ(a[i].centre.x, b[i].centre.x);
+        EXPECT_EQ(a[i].centre.y, b[i].centre.y);
+        EXPECT_EQ(a[i].radius, b[i].radius);
+        EXPECT_EQ(a[i].votes, b[i].votes);
+    }
+}
+
 TEST(HoughCircles, AtTheRimOfTheImageAreStruckOutInsideIt) {
     // The toolkit tested the wrong coordinate here and could write outside. Memory checks watch this.
     for (const Point centre : {Point{0, 0}, {79, 0}, {0, 59}, {79, 59}, {40, 0}, {79, 30}}) {

@@ -55,6 +55,18 @@ TEST(HistogramOf, LeavesTheHistogramWhenThereIsNoImage) {
     EXPECT_EQ(histogram[5], 1u);
 }
 
+TEST(Histogram, BeginsAnewUnlessThereIsNoImage) {
+    Histogram histogram = of_levels({5, 6});
+    EXPECT_EQ(histogram.begin({0, 4}), Status::empty_image);
+    EXPECT_EQ(histogram.total(), 2u);
+    Histogram other = of_levels({5});
+    other.add(histogram);
+    EXPECT_EQ(other[5], 2u);
+    EXPECT_EQ(other[6], 1u);
+    EXPECT_EQ(histogram.begin({4, 4}), Status::ok);
+    EXPECT_EQ(histogram.total(), 0u);
+}
+
 TEST(HistogramOf, CountsOnlyWhereTheMaskIsSet) {
     Random random(54);
     for (const Size size : test_sizes()) {

@@ -8,6 +8,7 @@
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/morphology/distance_transform.hpp>
+#include <fovea/morphology/hit_or_miss.hpp>
 #include <fovea/morphology/morphology.hpp>
 #include <fovea/morphology/shaped_morphology.hpp>
 #include <fovea/morphology/structuring_element.hpp>
@@ -31,6 +32,23 @@ constexpr StructuringElement element_of(const int* values) {
     if (values[0] == 0) return StructuringElement::cross({values[1], values[1]});
     if (values[0] == 1) return StructuringElement::disc(values[1]);
     return StructuringElement::line({values[1] / 2, values[1] / 2});
+}
+
+/// Patterns by number: what must be set and what must not.
+inline constexpr OperatorParameter pattern{
+    "pattern", 0, 3, 1, 1, "what is looked for", "dot|corner|edge|end"};
+
+constexpr StructuringElement hit_of(int number) {
+    if (number == 0) return StructuringElement::from_text("...\n.#.\n...");
+    if (number == 1) return StructuringElement::from_text("...\n.##\n.#.");
+    if (number == 2) return StructuringElement::from_text("...\n.##\n...");
+    return StructuringElement::from_text(".#.\n.#.\n...");
+}
+constexpr StructuringElement miss_of(int number) {
+    if (number == 0) return StructuringElement::from_text("###\n#.#\n###");
+    if (number == 1) return StructuringElement::from_text("##.\n#..\n...");
+    if (number == 2) return StructuringElement::from_text("...\n#..\n...");
+    return StructuringElement::from_text("...\n#.#\n###");
 }
 
 inline constexpr Operator morphology[] = {
@@ -197,6 +215,19 @@ inline constexpr Operator morphology[] = {
                      c.values[1], c.scratch, c.out<Gray8>());
      },
      true},
+    {"hit_or_miss",
+     "finds a pattern of pixels that are not 0 and pixels that are",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {pattern},
+     nullptr,
+     [](Size size, const int* v) { return hit_or_miss_scratch(size, hit_of(v[0]), miss_of(v[0])); },
+     [](const OperatorCall& c) {
+         if (!pattern.allows(c.values[0])) return Status::bad_argument;
+         return hit_or_miss(c.input<Gray8>(), hit_of(c.values[0]), miss_of(c.values[0]), c.scratch,
+                            c.out<Gray8>());
+     }},
 };
 
 }  // namespace catalogue

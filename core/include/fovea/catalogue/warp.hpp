@@ -13,6 +13,7 @@
 #include <fovea/warp/area.hpp>
 #include <fovea/warp/flip.hpp>
 #include <fovea/warp/homography.hpp>
+#include <fovea/warp/polar.hpp>
 #include <fovea/warp/pyramid.hpp>
 #include <fovea/warp/resize.hpp>
 #include <fovea/warp/sampling.hpp>
@@ -72,6 +73,25 @@ Status turn_about_middle(const OperatorCall& c, Pixel level) {
     const Size size = c.inputs[0].size;
     return rotate<Pixel>(c.input<Pixel>(), {middle(size.width), middle(size.height)},
                          Angle::from_degrees(c.values[0]), sampling_of<Pixel>(c, 1, level), c.out<Pixel>());
+}
+
+inline constexpr OperatorParameter inner_radius{"inner", 1, 30000, 2, 1, "px, of column 0"};
+inline constexpr OperatorParameter outer_radius{"outer", 2, 32000, 40, 1, "px, behind the last column"};
+
+constexpr std::int64_t polar_scratch(Size /*size*/, const int* values) {
+    return warp_polar_scratch({values[0], values[1]});
+}
+/// About the middle of the input; no ring where a parameter is out of its range.
+constexpr PolarFrame ring_about_middle(const OperatorCall& c, RadiusScale scale) {
+    PolarFrame frame;
+    if (c.output.size != wanted({}, c.values)) return frame;
+    if (!inner_radius.allows(c.values[2]) || !outer_radius.allows(c.values[3])) return frame;
+    const auto middle = [](int side) { return FinePixel::from_raw((side - 1) * (FinePixel::one / 2)); };
+    frame.centre = {middle(c.inputs[0].size.width), middle(c.inputs[0].size.height)};
+    frame.inner = FinePixel::from_int(c.values[2]);
+    frame.outer = FinePixel::from_int(c.values[3]);
+    frame.scale = scale;
+    return frame;
 }
 
 inline constexpr Operator warp[] = {
@@ -268,6 +288,30 @@ inline constexpr Operator warp[] = {
          h.wx = std::int64_t{c.values[0]} * (1 << 20);
          h.wy = std::int64_t{c.values[1]} * (1 << 20);
          return warp_homography<Gray8>(c.input<Gray8>(), h, sampling_of<Gray8>(c, 6, 0), c.out<Gray8>());
+     }},
+    {"polar",
+     "rings about the middle become columns, one turn the height",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {new_width, new_height, inner_radius, outer_radius, interpolation_choice, outside_choice, outside_level},
+     wanted,
+     polar_scratch,
+     [](const OperatorCall& c) {
+         return warp_polar<Gray8>(c.input<Gray8>(), ring_about_middle(c, RadiusScale::linear),
+                                  sampling_of<Gray8>(c, 4, c.level(6)), c.scratch, c.out<Gray8>());
+     }},
+    {"log_polar",
+     "the same with radii that grow by a factor with every column",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {new_width, new_height, inner_radius, outer_radius, interpolation_choice, outside_choice, outside_level},
+     wanted,
+     polar_scratch,
+     [](const OperatorCall& c) {
+         return warp_polar<Gray8>(c.input<Gray8>(), ring_about_middle(c, RadiusScale::logarithmic),
+                                  sampling_of<Gray8>(c, 4, c.level(6)), c.scratch, c.out<Gray8>());
      }},
 };
 

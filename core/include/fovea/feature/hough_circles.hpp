@@ -90,12 +90,15 @@ public:
             directions_[i] = {static_cast<std::int16_t>(round_shift(way.x.raw(), 16)),
                               static_cast<std::int16_t>(round_shift(way.y.raw(), 16))};
         }
+        std::int32_t lowest = 0;
         for (std::ptrdiff_t i = 0; i < points_.size(); ++i) {
             const SubPixelPoint place = points_[i].place;
             const bool inside = place.x.raw() >= 0 && place.y.raw() >= 0 &&
                                 place.x.raw() <= (size.width - 1) * SubPixel::one &&
                                 place.y.raw() <= (size.height - 1) * SubPixel::one;
             taken_[i] = inside ? 0 : 1;
+            in_rows_ = in_rows_ && place.y.raw() >= lowest - row_slack;
+            lowest = maximum(lowest, place.y.raw());
         }
         // Both sides in 2^-14; the window ends before a quarter of a turn.
         const UnitVector edge = unit_vector(options.window);
@@ -207,7 +210,8 @@ private:
         if (longest <= 0) return;
         const std::int64_t least = shortest > 0 ? std::int64_t{shortest} * shortest : 1;
         const std::int64_t most = std::int64_t{longest} * longest;
-        for (std::ptrdiff_t i = 0; i < points_.size(); ++i) {
+        const std::ptrdiff_t end = first_below(centre.y.raw() + longest);
+        for (std::ptrdiff_t i = first_from(centre.y.raw() - longest); i < end; ++i) {
             if (taken_[i] != 0) continue;
             const EdgePoint& point = points_[i];
             // Below 2^24, for the place lies in the image and the centre is near it.
@@ -227,6 +231,35 @@ private:
         }
     }
 
+    /// The points of canny_points() come row by row, but for what a place is off its pixel. No point is
+    /// higher than one before it by more than the slack, so whatever comes before one that is higher than y
+    /// by the slack is higher than y, and whatever comes behind one that is as much lower is lower.
+    static constexpr std::int32_t row_slack = SubPixel::one;
+    /// No point before it is at y or lower.
+    std::ptrdiff_t first_from(std::int32_t y) const {
+        std::ptrdiff_t first = 0;
+        for (std::ptrdiff_t end = in_rows_ ? points_.size() : 0; first < end;) {
+            const std::ptrdiff_t middle = first + (end - first) / 2;
+            if (points_[middle].place.y.raw() < y - row_slack)
+                first = middle + 1;
+            else
+                end = middle;
+        }
+        return first;
+    }
+    /// No point from it on is at y or higher.
+    std::ptrdiff_t first_below(std::int32_t y) const {
+        std::ptrdiff_t end = points_.size();
+        for (std::ptrdiff_t first = in_rows_ ? 0 : end; first < end;) {
+            const std::ptrdiff_t middle = first + (end - first) / 2;
+            if (points_[middle].place.y.raw() > y + row_slack)
+                end = middle;
+            else
+                first = middle + 1;
+        }
+        return end;
+    }
+
     Span<const EdgePoint> points_;
     const HoughCircleOptions& options_;
     Span<CoarseDirection> directions_;
@@ -234,6 +267,7 @@ private:
     Span<std::uint8_t> taken_;
     std::int32_t window_cosine_ = 0;
     std::int32_t window_sine_ = 0;
+    bool in_rows_ = true;
 };
 
 /// Whether a is to leave a full list before b.

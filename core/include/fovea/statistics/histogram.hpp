@@ -8,6 +8,7 @@
 #include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
@@ -16,15 +17,28 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-/// How often each grey level occurs. An accumulator: it takes rows in any number of calls.
+/// How often each grey level occurs. An accumulator: it takes rows in any number of calls, also at the end of
+/// a stream; of strips add() makes the whole.
 ///
 /// Units   counts of pixels; at most 2^32 - 1 in all, so every image up to 65535 x 65535 fits
 /// Memory  1 KiB on 32-bit chips, 4 KiB elsewhere
 /// Source  book sec. 2.5.1
 class Histogram {
 public:
+    using Input = Gray8;
     static constexpr int levels = 256;
 
+    /// Begins an image: no pixel is counted. Errors: empty_image, with the counts untouched.
+    constexpr Status begin(Size size) {
+        if (size.empty()) return Status::empty_image;
+        clear();
+        return Status::ok;
+    }
+    constexpr void add_row(const Gray8* row, int width, int) { add_row(row, width); }
+    /// Adds the counts of another one.
+    constexpr void add(const Histogram& other) {
+        for (int level = 0; level < levels; ++level) counts_[0][level] += other[level];
+    }
     /// Adds the pixels of a row.
     constexpr void add_row(const Gray8* row, int width) {
         int x = 0;
