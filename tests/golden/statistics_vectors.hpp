@@ -103,7 +103,7 @@ inline void statistics_binary_moments(Workspace& work, Digest& digest) {
         sums.add_row(src.row(0), size.width, max_moment_side - 1);
         digest.add(sums.moments());
         BinaryMoments twice = sums;
-        twice.add(sums);
+        twice.merge(sums);
         digest.add(twice.moments());
     }
     for (const Size size : {Size{0, 1}, Size{max_moment_side + 1, 1}, Size{1, max_moment_side + 1}})
@@ -114,8 +114,8 @@ inline void statistics_binary_moments(Workspace& work, Digest& digest) {
     for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8>) {
         digest.add(part.begin(src.size()), whole.begin({1, 1}));
         for (int y = 0; y < src.height(); ++y) part.add_row(src.row(y), src.width(), y);
-        whole.add(part);
-        whole.add(part);
+        whole.merge(part);
+        whole.merge(part);
         for (int level = 0; level < whole.size(); ++level) digest.add(whole[level]);
     });
     digest.add(part.begin({}));

@@ -6,6 +6,7 @@
 #include <fovea/morphology/morphology_stages.hpp>
 #include <fovea/pixelwise/copy.hpp>
 #include <fovea/pixelwise/point_stages.hpp>
+#include <fovea/statistics/binary_moments.hpp>
 #include <fovea/stream/stream.hpp>
 
 #include <bench/harness.hpp>
@@ -65,6 +66,25 @@ const bool foreground_added =
 #if defined(FOVEA_HAVE_OPENCV)
         row.peer("OpenCV",
                  [a = mat(src), b = mat(background), c = mat(dst)]() mutable { opencv_foreground(a, b, c); });
+#endif
+    });
+
+/// The same to the moments of the edges: no image is written at all.
+const bool measured_added =
+    add(251, "gray, gaussian_5x5, sobel_magnitude, threshold, moments", Sizes::vga_and_full_hd, [](Row& row) {
+        auto& src = row.keep(coloured_part(row.size()));
+        auto& program = row.keep(stream(stages::gray_from_rgb, stages::gaussian_5x5, stages::sobel_magnitude,
+                                        stages::threshold{40}, BinaryMoments()));
+        auto& scratch = row.keep(bytes(program.scratch(row.size().width)));
+        row.ours([&] {
+            consume(program.run(src.view(), Border::replicate, span_of(scratch)));
+            consume(program.accumulator().moments());
+        });
+#if defined(FOVEA_HAVE_OPENCV)
+        row.peer("OpenCV", [a = mat(src), b = cv::Mat()]() mutable {
+            opencv_edges(a, b);
+            consume(cv::moments(b, true));
+        });
 #endif
     });
 

@@ -129,8 +129,8 @@ TEST(BinaryMoments, OfAStreamAndOfItsStripsAreThoseOfTheFrame) {
         for (int y = 0; y < size.height; y += 3) {
             const int last = std::min(y + 2, size.height - 1);
             ASSERT_EQ(whole.run_strip(src.view(), Border::replicate, y, last, scratch), Status::ok);
-            joined.add(sums);
-            all.add(seen);
+            joined.merge(sums);
+            all.merge(seen);
         }
         ASSERT_EQ(sums_of(joined.moments()), expected);
         for (int i = 0; i < levels.size(); ++i) ASSERT_EQ(all[i], levels[i]);

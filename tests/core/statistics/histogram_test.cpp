@@ -60,7 +60,7 @@ TEST(Histogram, BeginsAnewUnlessThereIsNoImage) {
     EXPECT_EQ(histogram.begin({0, 4}), Status::empty_image);
     EXPECT_EQ(histogram.total(), 2u);
     Histogram other = of_levels({5});
-    other.add(histogram);
+    other.merge(histogram);
     EXPECT_EQ(other[5], 2u);
     EXPECT_EQ(other[6], 1u);
     EXPECT_EQ(histogram.begin({4, 4}), Status::ok);

@@ -45,6 +45,8 @@ private:
     int width_;
 };
 
+namespace detail {
+
 /// Makes a row by a kernel of either form.
 template <class Kernel, class Input, class Output>
 [[gnu::always_inline]] inline void make_row(Kernel& kernel, const RowWindow<Input>& window,
@@ -55,11 +57,14 @@ template <class Kernel, class Input, class Output>
         kernel(window, dst);
 }
 
+}  // namespace detail
+
 /// Runs a row kernel over rows first..last of a frame, top to bottom; dst holds those rows alone.
 ///
 /// Shapes   src as wide as dst; dst last - first + 1 rows
-/// Border   rows beyond src as border says; the kernel does the columns. For Border::zero, zeros is a row of
-/// them Overlap  none
+/// Border   rows beyond src as border says; the kernel does the columns. For Border::zero, zeros is a row
+///          of them
+/// Overlap  none
 template <class Kernel>
 void for_each_row(ImageView<const typename Kernel::Input> src, Border border, int first, int last,
                   Kernel& kernel, ImageView<typename Kernel::Output> dst,
@@ -74,7 +79,7 @@ void for_each_row(ImageView<const typename Kernel::Input> src, Border border, in
             const int row = border_index(border, y - rows / 2 + i, src.height());
             window[i] = row == no_index ? zeros : src.row(row);
         }
-        make_row(kernel, RowWindow<Input>(window, rows, src.width()), y > first, dst.row(y - first));
+        detail::make_row(kernel, RowWindow<Input>(window, rows, src.width()), y > first, dst.row(y - first));
     }
 }
 

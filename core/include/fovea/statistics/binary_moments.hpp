@@ -25,7 +25,7 @@ namespace fovea {
 inline namespace FOVEA_ISA {
 
 /// Adds up the moments of the pixels that are not 0. An accumulator: it takes the rows of an image in any
-/// order, a strip of an image its rows alone; add() joins strips.
+/// order, a strip of an image its rows alone; merge() joins strips.
 ///
 /// Units   pixels of the whole image, sides up to max_moment_side
 /// Errors  of begin(): empty_image, image_too_large, with the sums untouched
@@ -39,7 +39,7 @@ public:
     /// Adds row y of width pixels.
     void add_row(const Gray8* row, int width, int y);
     /// Adds what another one found in other rows of the same image.
-    void add(const BinaryMoments& other) { moments_.add(other.moments_); }
+    void merge(const BinaryMoments& other) { moments_.add(other.moments_); }
     const Moments& moments() const { return moments_; }
 
 private:

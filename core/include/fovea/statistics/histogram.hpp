@@ -36,7 +36,7 @@ public:
     }
     constexpr void add_row(const Gray8* row, int width, int) { add_row(row, width); }
     /// Adds the counts of another one.
-    constexpr void add(const Histogram& other) {
+    constexpr void merge(const Histogram& other) {
         for (int level = 0; level < levels; ++level) counts_[0][level] += other[level];
     }
     /// Adds the pixels of a row.
