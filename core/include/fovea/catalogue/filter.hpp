@@ -11,6 +11,7 @@
 #include <fovea/filter/gaussian_sigma.hpp>
 #include <fovea/filter/laplacian.hpp>
 #include <fovea/filter/median.hpp>
+#include <fovea/filter/median_window.hpp>
 #include <fovea/filter/sobel.hpp>
 #include <fovea/image/border.hpp>
 #include <fovea/image/pixel.hpp>
@@ -80,6 +81,22 @@ inline constexpr Operator filter[] = {
                                                         PixelKind::gray8),
     filter_entry<Gray8, median_5x5, median_5x5_scratch>("median_5x5", "median of 5x5 pixels", "",
                                                         PixelKind::gray8),
+    {"median",
+     "median over a rectangle",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {{"width", 1, max_window_rows, 7, 2, "columns of the rectangle, odd"},
+      {"height", 1, max_window_rows, 7, 2, "rows of the rectangle, odd", nullptr, true},
+      border_choice},
+     nullptr,
+     [](Size size, const int* values) {
+         return median_scratch(size, {values[0], values[1]});
+     },
+     [](const OperatorCall& c) {
+         return median(c.input<Gray8>(), {c.values[0], c.values[1]}, border_of(c.values[2]), c.scratch,
+                       c.out<Gray8>());
+     }},
     filter_entry<Gradient16, sobel_x, derivative_scratch>(
         "sobel_x", "derivative to the right, smoothed by 1 2 1", "2.6.3", PixelKind::gradient16),
     filter_entry<Gradient16, sobel_y, derivative_scratch>(
