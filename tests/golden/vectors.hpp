@@ -18,6 +18,7 @@
 #include <golden/digest.hpp>
 #include <golden/draw_vectors.hpp>
 #include <golden/feature_vectors.hpp>
+#include <golden/filter_vectors.hpp>
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
@@ -72,6 +73,7 @@ inline constexpr Vector vectors[] = {
     {"statistics/polygon_symmetry", statistics_polygon_symmetry},
     {"statistics/projection", statistics_projection},
     {"statistics/reductions", statistics_reductions},
+    {"filter/convolve", filter_convolve},
     {"morphology/rectangles", morphology_rectangles},
     {"morphology/shapes", morphology_shapes},
     {"morphology/thinning", morphology_thinning},

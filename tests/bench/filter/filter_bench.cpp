@@ -6,6 +6,15 @@ namespace {
 
 constexpr Sizes both = Sizes::vga_and_full_hd;
 
+#if defined(FOVEA_HAVE_OPENCV)
+const float sharp_weights[] = {-1, -2, 0, -2, 6, 2, 0, 2, 1};
+const float wide_weights[] = {1, 200, 1, 200, -300, 200, 1, 200, 1};
+void opencv_convolve(const cv::Mat& in, cv::Mat& out, const float* weights, float divisor) {
+    const cv::Mat kernel = cv::Mat(3, 3, CV_32F, const_cast<float*>(weights)) / divisor;
+    cv::filter2D(in, out, out.depth(), kernel, {-1, -1}, 0, cv::BORDER_REPLICATE);
+}
+#endif
+
 // OpenCV with the same border, into the same pixels; its strength of a gradient takes five calls.
 const bool lines[] = {
     add_operator(200, "gaussian_3x3", both, {},
@@ -28,6 +37,12 @@ const bool lines[] = {
     add_operator(212, "median", both, {7, 7}, FOVEA_OPENCV(cv::medianBlur(in[0], out, 7)), "median 7x7"),
     add_operator(213, "median", both, {15, 15}, FOVEA_OPENCV(cv::medianBlur(in[0], out, 15)), "median 15x15"),
     add_operator(214, "median", both, {31, 31}, FOVEA_OPENCV(cv::medianBlur(in[0], out, 31)), "median 31x31"),
+    add_operator(215, "convolve_3x3", both, {-1, -2, 0, -2, 6, 2, 0, 2, 1, 5},
+                 FOVEA_OPENCV(opencv_convolve(in[0], out, sharp_weights, 5)), "convolve 3x3"),
+    add_operator(216, "convolve_3x3", Sizes::vga, {1, 200, 1, 200, -300, 200, 1, 200, 1, 504},
+                 FOVEA_OPENCV(opencv_convolve(in[0], out, wide_weights, 504)), "convolve 3x3, large weights"),
+    add_operator(217, "convolve_3x3_signed", both, {-1, -2, 0, -2, 6, 2, 0, 2, 1, 5},
+                 FOVEA_OPENCV(opencv_convolve(in[0], out, sharp_weights, 5)), "convolve 3x3, signed"),
     add_operator(220, "sobel_x", both, {},
                  FOVEA_OPENCV(cv::Sobel(in[0], out, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE))),
     add_operator(221, "sobel_y", both, {},

@@ -7,6 +7,7 @@
 
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/filter/box.hpp>
+#include <fovea/filter/convolve.hpp>
 #include <fovea/filter/gaussian.hpp>
 #include <fovea/filter/gaussian_sigma.hpp>
 #include <fovea/filter/laplacian.hpp>
@@ -15,6 +16,7 @@
 #include <fovea/filter/sobel.hpp>
 #include <fovea/image/border.hpp>
 #include <fovea/image/pixel.hpp>
+#include <fovea/number/integer.hpp>
 
 namespace fovea {
 inline namespace FOVEA_ISA {
@@ -44,7 +46,54 @@ constexpr Operator filter_entry(const char* name, const char* summary, const cha
             }};
 }
 
+inline constexpr OperatorParameter weight_parameter(const char* name, int preset, const char* text) {
+    return {name, -32768, 32767, preset, 1, text};
+}
+
+/// The entry of convolve() with nine weights.
+template <class Pixel, Status (*Convolve)(ImageView<const Gray8>, const ConvolutionKernel&, Border,
+                                          Span<std::uint8_t>, ImageView<Pixel>)>
+constexpr Operator convolve_entry(const char* name, const char* summary, int left, int middle, int right,
+                                  int divisor, int offset, PixelKind output) {
+    return {name,
+            summary,
+            "2.6.1",
+            {PixelKind::gray8},
+            output,
+            {weight_parameter("upper_left", left, "weight of the pixel above on the left"),
+             weight_parameter("upper", middle, "weight of the pixel above"),
+             weight_parameter("upper_right", right, "weight of the pixel above on the right"),
+             weight_parameter("left", 2 * left, "weight of the pixel on the left"),
+             weight_parameter("centre", 2 * middle, "weight of the pixel itself"),
+             weight_parameter("right", 2 * right, "weight of the pixel on the right"),
+             weight_parameter("lower_left", left, "weight of the pixel below on the left"),
+             weight_parameter("lower", middle, "weight of the pixel below"),
+             weight_parameter("lower_right", right, "weight of the pixel below on the right"),
+             {"divisor", 1, max_convolution_divisor, divisor, 1, "what the sum is divided by"},
+             {"offset", -max_convolution_offset, max_convolution_offset, offset, 1, "added to the quotient"},
+             border_choice},
+            nullptr,
+            [](Size size, const int*) {
+                return convolve_scratch(size, {3, 3});
+            },
+            [](const OperatorCall& c) {
+                std::int16_t weights[9];
+                bool fit = true;
+                for (int i = 0; i < 9; ++i) {
+                    weights[i] = saturate_cast<std::int16_t>(c.values[i]);
+                    fit = fit && weights[i] == c.values[i];
+                }
+                // Without weights it is refused.
+                const ConvolutionKernel kernel{{weights, fit ? 9 : 0}, {3, 3}, c.values[9], c.values[10]};
+                return Convolve(c.input<Gray8>(), kernel, border_of(c.values[11]), c.scratch, c.out<Pixel>());
+            }};
+}
+
 inline constexpr Operator filter[] = {
+    convolve_entry<Gray8, convolve>("convolve_3x3", "sum of 3x3 pixels with weights of choice", 1, 2, 1, 16,
+                                    0, PixelKind::gray8),
+    convolve_entry<Gradient16, convolve>("convolve_3x3_signed", "the same with a sign", -1, 0, 1, 1, 0,
+                                         PixelKind::gradient16),
     filter_entry<Gray8, gaussian_3x3, gaussian_3x3_scratch>(
         "gaussian_3x3", "mean weighed by 1 2 1 in both directions", "2.6.2", PixelKind::gray8),
     filter_entry<Gray8, gaussian_5x5, gaussian_5x5_scratch>(

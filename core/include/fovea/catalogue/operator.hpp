@@ -63,7 +63,7 @@ struct AnyImage {
 };
 
 inline constexpr int max_operator_inputs = 2;
-inline constexpr int max_operator_parameters = 8;
+inline constexpr int max_operator_parameters = 12;
 
 /// What an operator works on: images of its entry's kinds, its parameters' values in order.
 struct OperatorCall {

@@ -50,6 +50,9 @@ using RawQuads [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
 [[gnu::always_inline]] inline RawWords plus(RawWords a, RawWords b) { return a + b; }
 [[gnu::always_inline]] inline RawWords minus(RawWords a, RawWords b) { return a - b; }
 [[gnu::always_inline]] inline RawWords times(RawWords a, std::uint16_t k) { return a * all_words(k); }
+[[gnu::always_inline]] inline RawWords times_signed(RawWords a, std::int16_t k) {
+    return a * all_words(static_cast<std::uint16_t>(k));
+}
 [[gnu::always_inline]] inline RawWords shift_left(RawWords a, int n) { return a << n; }
 [[gnu::always_inline]] inline RawWords shift_right(RawWords a, int n) { return a >> n; }
 [[gnu::always_inline]] inline RawWords absolute(RawWords a) {
@@ -135,6 +138,10 @@ using RawWords = std::uint32_t;
 // Sums, products and left shifts of the two halves must stay below 2^16: words says so in its contract.
 [[gnu::always_inline]] inline RawWords plus(RawWords a, RawWords b) { return a + b; }
 [[gnu::always_inline]] inline RawWords times(RawWords a, std::uint16_t k) { return a * k; }
+// The whole word times k: what a half borrows from its neighbour comes back when the sums are positive again.
+[[gnu::always_inline]] inline RawWords times_signed(RawWords a, std::int16_t k) {
+    return a * static_cast<std::uint32_t>(std::int32_t{k});
+}
 [[gnu::always_inline]] inline RawWords product(RawWords a, RawWords b) {
     return (a & 0xffffu) * (b & 0xffffu) | ((a >> 16) * (b >> 16)) << 16;
 }
