@@ -66,6 +66,12 @@ const bool lines[] = {
     add_operator(231, "sobel_maximum", Sizes::vga, {}, {}),
     add_operator(232, "prewitt_maximum", Sizes::vga, {}, {}),
     add_operator(233, "difference_maximum", Sizes::vga, {}, {}),
+    add_operator(234, "gradient_direction", both, {}, FOVEA_OPENCV({
+                     static cv::Mat x, y, angle;
+                     cv::Sobel(in[0], x, CV_32F, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
+                     cv::Sobel(in[0], y, CV_32F, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
+                     cv::phase(x, y, angle);
+                 })),
     add_operator(240, "laplacian_4", both, {},
                  FOVEA_OPENCV(cv::Laplacian(in[0], out, CV_16S, 1, 1, 0, cv::BORDER_REPLICATE))),
     add_operator(241, "laplacian_8", both, {}, {}),

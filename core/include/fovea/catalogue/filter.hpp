@@ -10,6 +10,7 @@
 #include <fovea/filter/convolve.hpp>
 #include <fovea/filter/gaussian.hpp>
 #include <fovea/filter/gaussian_sigma.hpp>
+#include <fovea/filter/gradient_direction.hpp>
 #include <fovea/filter/laplacian.hpp>
 #include <fovea/filter/median.hpp>
 #include <fovea/filter/median_window.hpp>
@@ -171,6 +172,8 @@ inline constexpr Operator filter[] = {
     filter_entry<Gray8, difference_maximum, gradient_scratch>(
         "difference_maximum", "larger of |x| and |y| of the differences of neighbours", "2.6.3",
         PixelKind::gray8),
+    filter_entry<Direction16, gradient_direction, gradient_direction_scratch>(
+        "gradient_direction", "angle of Sobel's derivatives, 65536 to the turn", "2.6.3", PixelKind::gray16),
     filter_entry<Gradient16, laplacian_4, laplacian_4_scratch>(
         "laplacian_4", "four neighbours less four times the pixel", "2.6.3", PixelKind::gradient16),
     filter_entry<Gradient16, laplacian_8, laplacian_8_scratch>(

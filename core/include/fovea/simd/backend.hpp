@@ -83,6 +83,18 @@ using RawQuads [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
 #endif
 }
 
+[[gnu::always_inline]] inline RawWords both_times_high(RawWords a, RawWords b) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    return bits_as<RawWords>(_mm256_mulhi_epu16(bits_as<__m256i>(a), bits_as<__m256i>(b)));
+#elif FOVEA_BYTES == 16 && defined(__SSE2__)
+    return bits_as<RawWords>(_mm_mulhi_epu16(bits_as<__m128i>(a), bits_as<__m128i>(b)));
+#else
+    const RawQuads x = bits_as<RawQuads>(a);
+    const RawQuads y = bits_as<RawQuads>(b);
+    return bits_as<RawWords>((x & 0xffffu) * (y & 0xffffu) >> 16 | ((x >> 16) * (y >> 16) & 0xffff0000u));
+#endif
+}
+
 /// The numbers Count of a vector as a pack, for shuffles.
 template <class Numbers>
 struct Shuffle;
@@ -259,6 +271,9 @@ using RawWords = std::uint32_t;
 }
 [[gnu::always_inline]] inline RawWords times_high(RawWords a, std::uint16_t k) {
     return (a & 0xffffu) * k >> 16 | ((a >> 16) * k & 0xffff0000u);
+}
+[[gnu::always_inline]] inline RawWords both_times_high(RawWords a, RawWords b) {
+    return (a & 0xffffu) * (b & 0xffffu) >> 16 | ((a >> 16) * (b >> 16) & 0xffff0000u);
 }
 // The half of the lower column lies where memory has it first.
 inline constexpr bool big_endian_words = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;

@@ -161,6 +161,9 @@ struct Words {
     [[gnu::always_inline]] friend Words times_high(Words a, std::uint16_t k) {
         return {times_high(a.even, k), times_high(a.odd, k)};
     }
+    [[gnu::always_inline]] friend Words times_high(Words a, Words b) {
+        return {both_times_high(a.even, b.even), both_times_high(a.odd, b.odd)};
+    }
     /// The lower, the higher of two unsigned numbers.
     [[gnu::always_inline]] friend Words lower(Words a, Words b) {
         return {lower_words(a.even, b.even), lower_words(a.odd, b.odd)};
