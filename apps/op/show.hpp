@@ -68,6 +68,8 @@ bool save_shown(Storage& storage, const std::string& name, const AnyPicture& pic
             return save_picture(storage, name, detail::numbers_shown<Gray16>(picture, note), problem);
         case PixelKind::gradient16:
             return save_picture(storage, name, detail::numbers_shown<Gradient16>(picture, note), problem);
+        case PixelKind::response32:
+            return save_picture(storage, name, detail::numbers_shown<Response32>(picture, note), problem);
         case PixelKind::sum32:
             return save_picture(storage, name, detail::numbers_shown<Sum32>(picture, note), problem);
         default: break;

@@ -90,6 +90,7 @@ inline constexpr Vector vectors[] = {
     {"segment/polygons", segment_polygons},
     {"segment/runs", segment_runs},
     {"feature/canny_points", feature_canny_points},
+    {"feature/harris_points", feature_harris_points},
     {"feature/hough_circles", feature_hough_circles},
     {"feature/hough_lines", feature_hough_lines},
     {"measure/edge_probe", measure_edge_probe},

@@ -15,6 +15,7 @@ using Label16 = std::uint16_t;      ///< number of a region, 0 is the ground
 using Rgb565 = std::uint16_t;       ///< red in the 5 highest bits, green in 6, blue in the 5 lowest
 using Sum32 = std::uint32_t;        ///< sum over a rectangle of 8-bit pixels
 using Sum64 = std::uint64_t;        ///< sum over a rectangle of their squares
+using Response32 = std::int32_t;    ///< how much of a feature stands at a pixel, of either sign
 
 /// Colour in the byte order of a PPM file.
 struct Rgb888 {
