@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <fovea/catalogue/operator.hpp>
+#include <fovea/filter/bilateral.hpp>
 #include <fovea/filter/box.hpp>
 #include <fovea/filter/convolve.hpp>
 #include <fovea/filter/gaussian.hpp>
@@ -45,6 +46,14 @@ constexpr Operator filter_entry(const char* name, const char* summary, const cha
             [](const OperatorCall& c) {
                 return Filter(c.input<Gray8>(), border_of(c.values[0]), c.scratch, c.out<Pixel>());
             }};
+}
+
+inline BilateralOptions bilateral_options(const int* values) {
+    BilateralOptions options;
+    options.radius = values[0];
+    options.sigma_space = SubPixel::from_ratio(values[1], 100);
+    options.sigma_range = values[2];
+    return options;
 }
 
 inline constexpr OperatorParameter weight_parameter(const char* name, int preset, const char* text) {
@@ -146,6 +155,21 @@ inline constexpr Operator filter[] = {
      [](const OperatorCall& c) {
          return median(c.input<Gray8>(), {c.values[0], c.values[1]}, border_of(c.values[2]), c.scratch,
                        c.out<Gray8>());
+     }},
+    {"bilateral",
+     "mean weighed by distance and by difference, which keeps edges",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {{"radius", 1, max_bilateral_radius, 2, 1, "of the disc of neighbours, px"},
+      {"sigma_space", 30, 1000, 200, 1, "standard deviation of distances, 1/100 px"},
+      {"sigma_range", 1, 255, 25, 1, "standard deviation of differences, grey levels"},
+      border_choice},
+     nullptr,
+     [](Size size, const int* values) { return bilateral_scratch(size, bilateral_options(values)); },
+     [](const OperatorCall& c) {
+         return bilateral(c.input<Gray8>(), bilateral_options(c.values), border_of(c.values[3]), c.scratch,
+                          c.out<Gray8>());
      }},
     filter_entry<Gradient16, sobel_x, derivative_scratch>(
         "sobel_x", "derivative to the right, smoothed by 1 2 1", "2.6.3", PixelKind::gradient16),
