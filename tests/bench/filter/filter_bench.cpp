@@ -24,6 +24,12 @@ const bool lines[] = {
     add_operator(206, "gaussian", both, {200},
                  FOVEA_OPENCV(cv::GaussianBlur(in[0], out, {13, 13}, 2, 2, cv::BORDER_REPLICATE)),
                  "gaussian of sigma 2"),
+    add_operator(207, "difference_of_gaussians", both, {0, 200}, FOVEA_OPENCV({
+                     static cv::Mat mean;
+                     cv::GaussianBlur(in[0], mean, {13, 13}, 2, 2, cv::BORDER_REPLICATE);
+                     cv::absdiff(in[0], mean, out);
+                 }),
+                 "difference from the gaussian of sigma 2"),
     add_operator(202, "box_3x3", both, {},
                  FOVEA_OPENCV(cv::blur(in[0], out, {3, 3}, {-1, -1}, cv::BORDER_REPLICATE))),
     add_operator(203, "box_5x5", both, {},

@@ -9,6 +9,7 @@
 #include <fovea/filter/bilateral.hpp>
 #include <fovea/filter/box.hpp>
 #include <fovea/filter/convolve.hpp>
+#include <fovea/filter/difference_of_gaussians.hpp>
 #include <fovea/filter/gaussian.hpp>
 #include <fovea/filter/gaussian_sigma.hpp>
 #include <fovea/filter/gradient_direction.hpp>
@@ -119,6 +120,21 @@ inline constexpr Operator filter[] = {
      [](const OperatorCall& c) {
          return gaussian(c.input<Gray8>(), SubPixel::from_ratio(c.values[0], 100), border_of(c.values[1]),
                          c.scratch, c.out<Gray8>());
+     }},
+    {"difference_of_gaussians",
+     "what is finer than one sigma and coarser than another",
+     "",
+     {PixelKind::gray8},
+     PixelKind::gray8,
+     {{"fine", 0, 1000, 0, 1, "lower standard deviation, 1/100 px; 0 for the picture itself"},
+      {"coarse", 30, 1000, 212, 1, "higher standard deviation, 1/100 px"},
+      border_choice},
+     nullptr,
+     [](Size size, const int*) { return difference_of_gaussians_scratch(size); },
+     [](const OperatorCall& c) {
+         return difference_of_gaussians(c.input<Gray8>(), SubPixel::from_ratio(c.values[0], 100),
+                                        SubPixel::from_ratio(c.values[1], 100), border_of(c.values[2]),
+                                        c.scratch, c.out<Gray8>());
      }},
     filter_entry<Gray8, box_3x3, box_3x3_scratch>("box_3x3", "mean of 3x3 pixels", "2.6.2", PixelKind::gray8),
     filter_entry<Gray8, box_5x5, box_5x5_scratch>("box_5x5", "mean of 5x5 pixels", "2.6.2", PixelKind::gray8),
