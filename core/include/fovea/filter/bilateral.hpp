@@ -160,7 +160,8 @@ private:
     std::ptrdiff_t bytes_ = 0;
     std::uint8_t* first_ = nullptr;
     simd::BilateralScale scale_;
-    std::int8_t sides_[max_bilateral_radius + 1] = {};  ///< half of the disc's width by the distance of a row
+    std::uint8_t sides_[max_bilateral_radius + 1] =
+        {};  ///< half of the disc's width by the distance of a row
     std::uint16_t distances_[max_bilateral_radius * max_bilateral_radius + 1] = {};
 };
 
