@@ -99,7 +99,7 @@ public:
             const std::uint64_t exponent =
                 (static_cast<std::uint64_t>(square) * half_log2_e + space * space / 2) / (space * space);
             distances_[square] =
-                static_cast<std::uint16_t>(minimum<std::uint64_t>(exponent, simd::last_exponent));
+                static_cast<std::uint32_t>(minimum<std::uint64_t>(exponent, simd::last_exponent)) * 0x10001u;
         }
     }
 
@@ -162,7 +162,7 @@ private:
     simd::BilateralScale scale_;
     std::uint8_t sides_[max_bilateral_radius + 1] =
         {};  ///< half of the disc's width by the distance of a row
-    std::uint16_t distances_[max_bilateral_radius * max_bilateral_radius + 1] = {};
+    std::uint32_t distances_[max_bilateral_radius * max_bilateral_radius + 1] = {};
 };
 
 }  // namespace kernels

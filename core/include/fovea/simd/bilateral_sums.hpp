@@ -28,7 +28,7 @@ namespace simd {
 /// Weights 2^-e with e = difference^2 * scale + distance, as shares of 32767. Exponents have 11 bits behind
 /// the point; of 15 and more nothing is left of a weight.
 struct BilateralScale {
-    std::uint16_t factor = 0;  ///< of squares that were raised, by 2^16
+    std::uint32_t factor = 0;  ///< of squares that were raised, by 2^16; in both halves
     std::uint16_t most = 0;    ///< squares above this are taken for it
     std::uint16_t raise = 1;   ///< a power of two
 
@@ -46,7 +46,7 @@ constexpr BilateralScale BilateralScale::of(std::uint32_t scale) {
     BilateralScale result;
     int bits = 0;
     while (scale >> bits > 65535) ++bits;
-    result.factor = static_cast<std::uint16_t>(scale >> bits);
+    result.factor = (scale >> bits) * 0x10001u;
     result.most = static_cast<std::uint16_t>(65535 >> bits);
     result.raise = static_cast<std::uint16_t>(1 << bits);
     return result;
@@ -87,15 +87,16 @@ public:
           weights_{Unsigned{} + own_weight, Unsigned{} + own_weight},
           moments_{all_ints(0), all_ints(0)} {}
 
-    /// The pixels from from on, at a distance.
+    /// The pixels from from on. The exponent of their distance stands in both halves of distance: such a
+    /// number is spread over a vector by its load.
     [[gnu::always_inline]] void add(const std::uint8_t* from, const BilateralScale& scale,
-                                    std::uint16_t distance) {
-        // Both halves of 32 bits: such a number is spread over a vector by its load.
-        const RawWords from_space = bits_as<RawWords>(Unsigned{} + distance * 0x10001u);
+                                    std::uint32_t distance) {
+        const RawWords from_space = bits_as<RawWords>(Unsigned{} + distance);
         const RawWords step = words_at(from) - centre_;
         // By a product, because a shift by a number that is no constant takes two steps.
         const RawWords square = lower_words(step * step, all_words(scale.most)) * all_words(scale.raise);
-        const RawWords exponent = held_sum(times_high(square, scale.factor), from_space);
+        const RawWords factor = bits_as<RawWords>(Unsigned{} + scale.factor);
+        const RawWords exponent = held_sum(both_times_high(square, factor), from_space);
         const RawWords part = exponent << 5;
         RawWords power = all_words(power_a) - times_high(part, power_b);
         power = all_words(own_weight) - both_times_high(part, power);
@@ -145,10 +146,10 @@ public:
     explicit BilateralSums(const std::uint8_t* centre) : centre_(centre) {
         for (std::uint32_t& weight : weights_) weight = own_weight;
     }
-    void add(const std::uint8_t* from, const BilateralScale& scale, std::uint16_t distance) {
+    void add(const std::uint8_t* from, const BilateralScale& scale, std::uint32_t distance) {
         for (int i = 0; i < half_lanes; ++i) {
             const std::int32_t step = pixel(from, i) - pixel(centre_, i);
-            const auto weight = weight_of(static_cast<std::uint32_t>(step * step), scale, distance);
+            const auto weight = weight_of(static_cast<std::uint32_t>(step * step), scale, distance & 0xffffu);
             weights_[i] += weight;
             moments_[i] += step * static_cast<std::int32_t>(weight);
         }
@@ -176,7 +177,7 @@ private:
                                    std::uint32_t distance) {
         square = minimum<std::uint32_t>(square, scale.most) * scale.raise;
         const std::uint32_t exponent =
-            minimum<std::uint32_t>((square * scale.factor >> 16) + distance, last_exponent);
+            minimum<std::uint32_t>((square * (scale.factor & 0xffffu) >> 16) + distance, last_exponent);
         const std::uint32_t part = exponent << 5 & 0xffffu;
         std::uint32_t power = power_a - (part * power_b >> 16);
         power = own_weight - (part * power >> 16);
