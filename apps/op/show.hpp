@@ -53,6 +53,7 @@ inline bool shown_in_gray(const AnyPicture& picture, Picture<Gray8>& shown, std:
         case PixelKind::gray8: shown = as_picture<Gray8>(picture); return true;
         case PixelKind::gray16: shown = numbers_shown<Gray16>(picture, note); return true;
         case PixelKind::gradient16: shown = numbers_shown<Gradient16>(picture, note); return true;
+        case PixelKind::response32: shown = numbers_shown<Response32>(picture, note); return true;
         case PixelKind::sum32: shown = numbers_shown<Sum32>(picture, note); return true;
         default: return false;
     }

@@ -30,7 +30,8 @@ inline int opencv_type(PixelKind kind) {
         case PixelKind::yuyv:
         case PixelKind::uyvy:
         case PixelKind::rgb565: return CV_8UC2;
-        case PixelKind::sum32: return CV_32SC1;
+        case PixelKind::sum32:
+        case PixelKind::response32: return CV_32SC1;
         default: return CV_8UC1;
     }
 }

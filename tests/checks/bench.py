@@ -39,7 +39,7 @@ def main():
     entries = entries_of(include / "catalogue")
     for path in sorted(bench.rglob("*_bench.cpp")):
         for name in re.findall(r'add_operator\(\s*\w+,\s*"(\w+)"', path.read_text()):
-            timed += without_comments(entries.get(name, ""))
+            timed += " " + without_comments(entries.get(name, ""))
     lines = (bench / "without_line.txt").read_text().split("\n")
     excuses = dict((line.split(maxsplit=1) + [""])[:2] for line in lines if line and not line.startswith("#"))
     findings = [f"without_line.txt: no reason for {name}" for name, reason in excuses.items() if not reason]

@@ -11,6 +11,7 @@
 #include <fovea/feature/canny.hpp>
 #include <fovea/feature/canny_points.hpp>
 #include <fovea/feature/find_circles.hpp>
+#include <fovea/feature/harris_points.hpp>
 #include <fovea/feature/hough_circles.hpp>
 #include <fovea/feature/hough_lines.hpp>
 #include <fovea/feature/line_segments.hpp>
@@ -22,6 +23,7 @@ namespace fovea::golden {
 inline void put(Digest& digest, const EdgePoint& p) { digest.add(p.place, p.gradient, p.strength, p.pixel); }
 inline void put(Digest& digest, const PolarLine& line) { digest.add(line.theta, line.distance, line.votes); }
 inline void put(Digest& digest, const HoughCircle& c) { digest.add(c.centre, c.radius, c.votes, c.share); }
+inline void put(Digest& digest, const HarrisPoint& p) { digest.add(p.place, p.response); }
 inline void put(Digest& digest, const LineSegment& s) { digest.add(s.from, s.to, s.pixels, s.line); }
 
 /// A list in the scratch of the workspace.
@@ -49,6 +51,24 @@ inline void feature_canny_points(Workspace& work, Digest& digest) {
             ArenaList<EdgePoint> points(arena, capacity);
             digest.add(canny_points(src, edges, Border::replicate, points.view()), points.view());
         }
+    });
+}
+
+inline void feature_harris_points(Workspace& work, Digest& digest) {
+    for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8>) {
+        for (const int capacity : {5, 200})
+            for (const int distance : {0, 3, 11}) {
+                HarrisPointOptions options;
+                options.quality = Ratio::from_raw(capacity * 40);
+                options.min_distance = distance;
+                options.candidates = 300;
+                Arena arena(work.scratch_span());
+                ArenaList<HarrisPoint> points(arena, capacity);
+                digest.add(harris_points_scratch(src.size(), options) > 0);
+                const Status status =
+                    harris_points(src, options, Border::reflect_101, arena.rest(), points.view());
+                digest.add(status, points.view());
+            }
     });
 }
 

@@ -36,7 +36,7 @@ inline void put_image(Digest& digest, const AnyImage& image, PixelKind kind) {
     digest.add(image.size);
     const int bytes = bytes_of(kind);
     const bool wide = kind == PixelKind::gray16 || kind == PixelKind::gradient16 ||
-                      kind == PixelKind::rgb565 || kind == PixelKind::sum32;
+                      kind == PixelKind::rgb565 || kind == PixelKind::sum32 || kind == PixelKind::response32;
     constexpr bool big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
     for (int y = 0; y < image.size.height; ++y) {
         const auto* row = static_cast<const std::uint8_t*>(image.first) + y * image.stride_bytes;
@@ -49,7 +49,7 @@ inline void put_image(Digest& digest, const AnyImage& image, PixelKind kind) {
 /// Wide inputs hold numbers of a machine: written as such.
 inline void to_machine_order(const AnyImage& image, PixelKind kind) {
     const bool wide = kind == PixelKind::gray16 || kind == PixelKind::gradient16 ||
-                      kind == PixelKind::rgb565 || kind == PixelKind::sum32;
+                      kind == PixelKind::rgb565 || kind == PixelKind::sum32 || kind == PixelKind::response32;
     if (__BYTE_ORDER__ != __ORDER_BIG_ENDIAN__ || !wide) return;
     auto* bytes = static_cast<std::uint8_t*>(image.first);
     const int count = bytes_of(kind);

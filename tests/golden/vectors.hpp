@@ -18,6 +18,7 @@
 #include <golden/digest.hpp>
 #include <golden/draw_vectors.hpp>
 #include <golden/feature_vectors.hpp>
+#include <golden/filter_vectors.hpp>
 #include <golden/image_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
@@ -80,6 +81,7 @@ inline constexpr Vector vectors[] = {
     {"statistics/projection", statistics_projection},
     {"statistics/reductions", statistics_reductions},
     {"morphology/bits", morphology_bits},
+    {"filter/convolve", filter_convolve},
     {"morphology/rectangles", morphology_rectangles},
     {"morphology/shapes", morphology_shapes},
     {"morphology/thinning", morphology_thinning},
@@ -98,6 +100,7 @@ inline constexpr Vector vectors[] = {
     {"segment/runs", segment_runs},
     {"feature/canny_points", feature_canny_points},
     {"feature/find_circles", feature_find_circles},
+    {"feature/harris_points", feature_harris_points},
     {"feature/hough_circles", feature_hough_circles},
     {"feature/hough_lines", feature_hough_lines},
     {"measure/edge_probe", measure_edge_probe},

@@ -319,6 +319,29 @@ TEST(Words, GiveTheHighHalfOfAProduct) {
             });
 }
 
+TEST(Words, GiveTheHighHalfOfTheirProducts) {
+    compare(
+        65536, 65536, [](const Words& a, const Words& b) { return times_high(a, b); },
+        [](int a, int b) {
+            return static_cast<int>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b) >> 16);
+        });
+}
+
+TEST(Words, SumProductsOfEitherSignThatEndAboveZero) {
+    // On the way every sum is below zero or above 2^16.
+    for (const int k : {-32768, -257, -1, 0, 1, 300, 32767})
+        compare(
+            256, 256,
+            [=](const Words& a, const Words& b) {
+                const auto by = static_cast<std::int16_t>(k);
+                const auto back = static_cast<std::int16_t>(-(k == -32768 ? -32767 : k));
+                const Words sum = Words::all(60000) + times_signed(a, by) + times_signed(b, -200);
+                const Words rest = k == -32768 ? sum + a : sum;
+                return rest + times_signed(a, back);
+            },
+            [](int, int b) { return 60000 - 200 * b; });
+}
+
 TEST(Words, LoadAndStoreNumbersOf16BitsInTheirOrder) {
     Random random(91);
     for (std::size_t count = 1; count <= lanes; ++count) {

@@ -8,6 +8,7 @@
 #include <fovea/catalogue/filter.hpp>
 #include <fovea/catalogue/operator.hpp>
 #include <fovea/feature/canny.hpp>
+#include <fovea/feature/harris.hpp>
 #include <fovea/image/pixel.hpp>
 
 namespace fovea {
@@ -28,6 +29,17 @@ inline constexpr Operator feature[] = {
      [](const OperatorCall& c) {
          return canny(c.input<Gray8>(), c.values[0], c.values[1], border_of(c.values[2]), c.scratch,
                       c.out<Gray8>());
+     }},
+    {"harris_response",
+     "how much a pixel is a corner, by Harris",
+     "",
+     {PixelKind::gray8},
+     PixelKind::response32,
+     {border_choice},
+     nullptr,
+     [](Size size, const int*) { return harris_scratch(size); },
+     [](const OperatorCall& c) {
+         return harris_response(c.input<Gray8>(), border_of(c.values[0]), c.scratch, c.out<Response32>());
      }},
 };
 

@@ -31,6 +31,7 @@ enum class PixelKind : std::uint8_t {
     uyvy,
     rgb565,
     sum32,
+    response32,
 };
 
 /// Bytes of one pixel.
@@ -63,7 +64,7 @@ struct AnyImage {
 };
 
 inline constexpr int max_operator_inputs = 2;
-inline constexpr int max_operator_parameters = 8;
+inline constexpr int max_operator_parameters = 12;
 
 /// What an operator works on: images of its entry's kinds, its parameters' values in order.
 struct OperatorCall {
@@ -148,6 +149,7 @@ constexpr int bytes_of(PixelKind kind) {
         case PixelKind::uyvy: return sizeof(Uyvy);
         case PixelKind::rgb565: return sizeof(Rgb565);
         case PixelKind::sum32: return sizeof(Sum32);
+        case PixelKind::response32: return sizeof(Response32);
     }
     return 0;
 }
@@ -165,6 +167,7 @@ constexpr const char* describe(PixelKind kind) {
         case PixelKind::uyvy: return "uyvy";
         case PixelKind::rgb565: return "rgb565";
         case PixelKind::sum32: return "sum32";
+        case PixelKind::response32: return "response32";
     }
     return "unknown";
 }

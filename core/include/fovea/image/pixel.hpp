@@ -7,13 +7,15 @@
 
 namespace fovea {
 
-using Gray8 = std::uint8_t;       ///< brightness 0..255; binary images hold 0 and 255
-using Gray16 = std::uint16_t;     ///< brightness 0..65535
-using Gradient16 = std::int16_t;  ///< derivative, -4080..4080 for 8-bit sources
-using Label16 = std::uint16_t;    ///< number of a region, 0 is the ground
-using Rgb565 = std::uint16_t;     ///< red in the 5 highest bits, green in 6, blue in the 5 lowest
-using Sum32 = std::uint32_t;      ///< sum over a rectangle of 8-bit pixels
-using Sum64 = std::uint64_t;      ///< sum over a rectangle of their squares
+using Gray8 = std::uint8_t;         ///< brightness 0..255; binary images hold 0 and 255
+using Gray16 = std::uint16_t;       ///< brightness 0..65535
+using Gradient16 = std::int16_t;    ///< derivative, -4080..4080 for 8-bit sources
+using Direction16 = std::uint16_t;  ///< angle in 1/65536 turn, from +x towards +y, as Angle::raw()
+using Label16 = std::uint16_t;      ///< number of a region, 0 is the ground
+using Rgb565 = std::uint16_t;       ///< red in the 5 highest bits, green in 6, blue in the 5 lowest
+using Sum32 = std::uint32_t;        ///< sum over a rectangle of 8-bit pixels
+using Sum64 = std::uint64_t;        ///< sum over a rectangle of their squares
+using Response32 = std::int32_t;    ///< how much of a feature stands at a pixel, of either sign
 
 /// Colour in the byte order of a PPM file.
 struct Rgb888 {

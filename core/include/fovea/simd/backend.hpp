@@ -50,6 +50,9 @@ using RawQuads [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
 [[gnu::always_inline]] inline RawWords plus(RawWords a, RawWords b) { return a + b; }
 [[gnu::always_inline]] inline RawWords minus(RawWords a, RawWords b) { return a - b; }
 [[gnu::always_inline]] inline RawWords times(RawWords a, std::uint16_t k) { return a * all_words(k); }
+[[gnu::always_inline]] inline RawWords times_signed(RawWords a, std::int16_t k) {
+    return a * all_words(static_cast<std::uint16_t>(k));
+}
 [[gnu::always_inline]] inline RawWords shift_left(RawWords a, int n) { return a << n; }
 [[gnu::always_inline]] inline RawWords shift_right(RawWords a, int n) { return a >> n; }
 [[gnu::always_inline]] inline RawWords absolute(RawWords a) {
@@ -77,6 +80,18 @@ using RawQuads [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
 #else
     const RawQuads pairs = bits_as<RawQuads>(a);
     return bits_as<RawWords>((pairs & 0xffffu) * k >> 16 | ((pairs >> 16) * k & 0xffff0000u));
+#endif
+}
+
+[[gnu::always_inline]] inline RawWords both_times_high(RawWords a, RawWords b) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    return bits_as<RawWords>(_mm256_mulhi_epu16(bits_as<__m256i>(a), bits_as<__m256i>(b)));
+#elif FOVEA_BYTES == 16 && defined(__SSE2__)
+    return bits_as<RawWords>(_mm_mulhi_epu16(bits_as<__m128i>(a), bits_as<__m128i>(b)));
+#else
+    const RawQuads x = bits_as<RawQuads>(a);
+    const RawQuads y = bits_as<RawQuads>(b);
+    return bits_as<RawWords>((x & 0xffffu) * (y & 0xffffu) >> 16 | ((x >> 16) * (y >> 16) & 0xffff0000u));
 #endif
 }
 
@@ -135,6 +150,10 @@ using RawWords = std::uint32_t;
 // Sums, products and left shifts of the two halves must stay below 2^16: words says so in its contract.
 [[gnu::always_inline]] inline RawWords plus(RawWords a, RawWords b) { return a + b; }
 [[gnu::always_inline]] inline RawWords times(RawWords a, std::uint16_t k) { return a * k; }
+// The whole word times k: what a half borrows from its neighbour comes back when the sums are positive again.
+[[gnu::always_inline]] inline RawWords times_signed(RawWords a, std::int16_t k) {
+    return a * static_cast<std::uint32_t>(std::int32_t{k});
+}
 [[gnu::always_inline]] inline RawWords product(RawWords a, RawWords b) {
     return (a & 0xffffu) * (b & 0xffffu) | ((a >> 16) * (b >> 16)) << 16;
 }
@@ -252,6 +271,9 @@ using RawWords = std::uint32_t;
 }
 [[gnu::always_inline]] inline RawWords times_high(RawWords a, std::uint16_t k) {
     return (a & 0xffffu) * k >> 16 | ((a >> 16) * k & 0xffff0000u);
+}
+[[gnu::always_inline]] inline RawWords both_times_high(RawWords a, RawWords b) {
+    return (a & 0xffffu) * (b & 0xffffu) >> 16 | ((a >> 16) * (b >> 16) & 0xffff0000u);
 }
 // The half of the lower column lies where memory has it first.
 inline constexpr bool big_endian_words = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;

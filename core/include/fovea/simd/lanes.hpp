@@ -145,6 +145,11 @@ struct Words {
     [[gnu::always_inline]] friend Words operator*(Words a, std::uint16_t k) {
         return {times(a.even, k), times(a.odd, k)};
     }
+    /// Times a number of either sign. Sums of such products may go anywhere on their way; nothing but such
+    /// sums may be done with them before they are 0..65535 again.
+    [[gnu::always_inline]] friend Words times_signed(Words a, std::int16_t k) {
+        return {times_signed(a.even, k), times_signed(a.odd, k)};
+    }
     [[gnu::always_inline]] friend Words operator<<(Words a, int n) {
         return {shift_left(a.even, n), shift_left(a.odd, n)};
     }
@@ -155,6 +160,9 @@ struct Words {
     /// exact.
     [[gnu::always_inline]] friend Words times_high(Words a, std::uint16_t k) {
         return {times_high(a.even, k), times_high(a.odd, k)};
+    }
+    [[gnu::always_inline]] friend Words times_high(Words a, Words b) {
+        return {both_times_high(a.even, b.even), both_times_high(a.odd, b.odd)};
     }
     /// The lower, the higher of two unsigned numbers.
     [[gnu::always_inline]] friend Words lower(Words a, Words b) {
