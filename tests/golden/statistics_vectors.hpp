@@ -142,7 +142,7 @@ inline void statistics_hu_moments(Workspace& work, Digest& digest) {
         if (n) digest.add(n->eta20, n->eta11, n->eta02, n->eta30, n->eta21, n->eta12, n->eta03);
     }
     for (int i = 0; i < 100; ++i) {
-        const Scaled a = Scaled::from_int(std::int64_t{random.between(-1000000, 1000000)} << (i % 40));
+        const Scaled a = Scaled::from_int(random.between(-1000000, 1000000) * (std::int64_t{1} << (i % 40)));
         const Scaled b = Scaled::from_int(Int128::product(random.next() + 1, std::int64_t{1} << (i % 60)));
         digest.add(a + b, a - b, a * b, a / b, -a, root_of(random.next()));
         digest.add(a == b, a != b);
