@@ -48,18 +48,14 @@ std::vector<Vector> all_vectors() {
 
 class GoldenVector : public testing::TestWithParam<Vector> {};
 
-TEST_P(GoldenVector, HasTheChecksumOfTheTable) {
+TEST_P(GoldenVector, HasTheChecksumOfTheTableWhateverRanBefore) {
     const std::map<std::string, std::string> table = read_table();
     const auto line = table.find(GetParam().name);
     ASSERT_NE(line, table.end()) << "golden.txt has no line for " << GetParam().name;
     EXPECT_EQ(hexadecimal(checksum(GetParam(), workspace)), line->second);
-}
-
-TEST_P(GoldenVector, DoesNotDependOnWhatRanBefore) {
-    const std::uint32_t first = checksum(GetParam(), workspace);
     for (auto& image : workspace.image)
         for (std::uint8_t& byte : image) byte = 0x5a;
-    EXPECT_EQ(checksum(GetParam(), workspace), first);
+    EXPECT_EQ(hexadecimal(checksum(GetParam(), workspace)), line->second);
 }
 
 INSTANTIATE_TEST_SUITE_P(, GoldenVector, testing::ValuesIn(all_vectors()), [](const auto& parameter) {
@@ -87,12 +83,12 @@ TEST(GoldenTable, HasNoLineWithoutAVector) {
     for (const auto& [name, expected] : table) ADD_FAILURE() << "no vector is called " << name;
 }
 
-TEST(GoldenVectors, HaveDifferentChecksums) {
+TEST(GoldenTable, HasDifferentChecksums) {
     // A vector that digests nothing, or the outputs of another one, would share its checksum.
-    std::map<std::uint32_t, std::string> seen;
-    for (const Vector& vector : all_vectors()) {
-        const auto [place, fresh] = seen.emplace(checksum(vector, workspace), vector.name);
-        EXPECT_TRUE(fresh) << vector.name << " and " << place->second;
+    std::map<std::string, std::string> seen;
+    for (const auto& [name, checksum] : read_table()) {
+        const auto [place, fresh] = seen.emplace(checksum, name);
+        EXPECT_TRUE(fresh) << name << " and " << place->second;
     }
 }
 
