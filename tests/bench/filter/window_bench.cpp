@@ -22,6 +22,11 @@ bool add_gaussian(int side) {
                                                                  cv::BORDER_REPLICATE)),
                         "gaussian " + std::to_string(side));
 }
+bool add_median(int side) {
+    return add_operator(9150 + side, "median", Sizes::windows, {side, side},
+                        FOVEA_OPENCV_KEEPING(side, cv::medianBlur(in[0], out, side)),
+                        "median " + std::to_string(side));
+}
 bool add_erode(int side) {
     return add_operator(9200 + side, "erode", Sizes::windows, {side, side},
                         FOVEA_OPENCV_KEEPING(side, cv::erode(in[0], out, cv::Mat::ones(side, side, CV_8U))),
@@ -31,6 +36,7 @@ bool add_erode(int side) {
 const bool lines[] = {
     add_box(3),      add_box(7),      add_box(15),      add_box(31),      add_box(63),
     add_gaussian(5), add_gaussian(7), add_gaussian(15), add_gaussian(31), add_gaussian(59),
+    add_median(3),   add_median(7),   add_median(15),   add_median(31),   add_median(63),
     add_erode(3),    add_erode(7),    add_erode(15),    add_erode(31),    add_erode(63),
 };
 
