@@ -4,8 +4,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
+
+#include <fovea/base/status.hpp>
+#include <fovea/number/decimal.hpp>
 
 #include <common/text.hpp>
 
@@ -106,6 +110,23 @@ private:
     std::vector<std::string> operands_;
     std::string problem_;
 };
+
+/// Reads the whole number of an option, if it is given. False if it is none from least to most, and problem
+/// says so.
+inline bool whole_option(const Arguments& arguments, const char* name, int least, int most, int& value,
+                         std::string& problem) {
+    if (!arguments.has(name)) return true;
+    const std::string text = arguments.value(name);
+    const Result<Decimal> number = parse_decimal(span_of(text));
+    if (number && number->millionths % 1000000 == 0 && number->millionths / 1000000 >= least &&
+        number->millionths / 1000000 <= most) {
+        value = static_cast<int>(number->millionths / 1000000);
+        return true;
+    }
+    problem = std::string("--") + name + " takes a whole number from " + std::to_string(least) + " to " +
+              std::to_string(most) + ", not '" + one_line(text) + "'";
+    return false;
+}
 
 /// The help of one command.
 inline std::string help_of(const Command& command) {

@@ -100,7 +100,7 @@ struct GaugeOptions {
     std::string job;
     std::string explain_name;  ///< "" for no picture
     bool json = false;
-    std::size_t parts = 0;  ///< that every image must hold; 0 for any number
+    int parts = 0;  ///< that every image must hold; 0 for any number
 };
 
 /// Measures one image, and answers how it went; explain_name is that of its own picture.
@@ -148,7 +148,7 @@ ExitCode gauge_image(Io& io, const GaugeOptions& options, const RecipeFile& file
                            : part.verdict == Verdict::not_ok ? exit_not_ok
                                                              : exit_failed);
     }
-    if (options.parts != 0 && parts.size() != options.parts && !image.size.empty()) {
+    if (options.parts != 0 && static_cast<int>(parts.size()) != options.parts && !image.size.empty()) {
         io.complain(name + ": " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts") +
                     " measured, and --parts asks for " + std::to_string(options.parts));
         code = exit_failed;
@@ -185,16 +185,7 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
     const std::string& explain_name = options.explain_name;
     if (problem.empty() && job.empty()) problem = "which recipe? give --job RECIPE; `fovea teach` makes one";
     if (problem.empty() && arguments.operands().empty()) problem = "which picture? give at least one IMAGE";
-    if (problem.empty() && arguments.has("parts")) {
-        const std::string text = arguments.value("parts");
-        const Result<Decimal> count = parse_decimal(span_of(text));
-        if (count && count->millionths % 1000000 == 0 && count->millionths >= 1000000 &&
-            count->millionths <= max_parts * std::int64_t{1000000})
-            options.parts = static_cast<std::size_t>(count->millionths / 1000000);
-        else
-            problem = "--parts takes a whole number from 1 to " + std::to_string(max_parts) + ", not '" +
-                      text + "'";
-    }
+    if (problem.empty()) whole_option(arguments, "parts", 1, max_parts, options.parts, problem);
     const std::vector<std::string>& images = arguments.operands();
     const auto picture_of = [&](std::size_t i) {
         return explain_name.empty() || images.size() == 1 ? explain_name : detail::numbered(explain_name, i);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <fovea/codec/any_picture.hpp>
-#include <fovea/number/decimal.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/statistics/histogram.hpp>
 
@@ -116,11 +115,8 @@ ExitCode compare_command(Io& io, const std::vector<std::string>& words) {
     std::string problem = arguments.problem();
     const std::vector<std::string>& names = arguments.operands();
     if (problem.empty() && names.size() != 2) problem = "needs two pictures";
-    const Result<Decimal> tolerance = parse_decimal(span_of(arguments.value("tolerance", "0")));
-    if (problem.empty() && (!tolerance || tolerance->millionths < 0 || tolerance->millionths > 255000000 ||
-                            tolerance->millionths % 1000000 != 0))
-        problem = "--tolerance takes grey levels from 0 to 255, not '" +
-                  one_line(arguments.value("tolerance")) + "'";
+    int tolerance = 0;
+    if (problem.empty()) whole_option(arguments, "tolerance", 0, 255, tolerance, problem);
     if (!problem.empty()) {
         io.complain("fovea compare: " + problem);
         return exit_failed;
@@ -139,7 +135,6 @@ ExitCode compare_command(Io& io, const std::vector<std::string>& words) {
                     std::to_string(pictures[1].size.width) + "x" + std::to_string(pictures[1].size.height));
         return exit_failed;
     }
-    const int allowed = static_cast<int>(tolerance->millionths / 1000000);
     std::int64_t differing = 0;
     std::int64_t sum = 0;
     int greatest = 0;
@@ -154,7 +149,7 @@ ExitCode compare_command(Io& io, const std::vector<std::string>& words) {
                 most = maximum(most, d < 0 ? -d : d);
             }
             greatest = maximum(greatest, most);
-            if (most > allowed && differing++ == 0) first = {x, y};
+            if (most > tolerance && differing++ == 0) first = {x, y};
         }
     const std::string mean = detail::thousandths(sum, 3 * size.area());
     if (arguments.has("json"))
@@ -164,14 +159,14 @@ ExitCode compare_command(Io& io, const std::vector<std::string>& words) {
                  ",\"first_y_px\":" + (differing > 0 ? std::to_string(first.y) : "null") + "}\n");
     else if (differing > 0)
         io.print(std::to_string(differing) + " of " + std::to_string(size.area()) +
-                 " pixels differ by more than " + std::to_string(allowed) + ", the first at " +
+                 " pixels differ by more than " + std::to_string(tolerance) + ", the first at " +
                  std::to_string(first.x) + "," + std::to_string(first.y) + "; greatest difference " +
                  std::to_string(greatest) + ", mean " + mean + "\n");
     else
         io.print(greatest == 0
                      ? "the pixels are the same\n"
-                     : "no pixel differs by more than " + std::to_string(allowed) + "; greatest difference " +
-                           std::to_string(greatest) + ", mean " + mean + "\n");
+                     : "no pixel differs by more than " + std::to_string(tolerance) +
+                           "; greatest difference " + std::to_string(greatest) + ", mean " + mean + "\n");
     return differing > 0 ? exit_not_ok : exit_ok;
 }
 

@@ -10,9 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <fovea/draw/rectangle.hpp>
 #include <fovea/draw/text.hpp>
-#include <fovea/number/decimal.hpp>
 #include <fovea/pixelwise/planes.hpp>
 #include <fovea/warp/area.hpp>
 
@@ -128,22 +126,6 @@ inline Picture<Rgb888> sheet_of(const std::vector<Tile>& tiles, std::size_t colu
     return sheet;
 }
 
-/// The number of an option, or otherwise; false if it is none from least to most.
-inline bool whole_option(const Arguments& arguments, const char* name, int least, int most, int& value,
-                         std::string& problem) {
-    if (!arguments.has(name)) return true;
-    const std::string text = arguments.value(name);
-    const Result<Decimal> number = parse_decimal(span_of(text));
-    if (number && number->millionths % 1000000 == 0 && number->millionths / 1000000 >= least &&
-        number->millionths / 1000000 <= most) {
-        value = static_cast<int>(number->millionths / 1000000);
-        return true;
-    }
-    problem = std::string("--") + name + " is " + std::to_string(least) + " to " + std::to_string(most) +
-              ", not '" + one_line(text) + "'";
-    return false;
-}
-
 /// A grey picture if every pixel is grey, which makes the file a third as large.
 template <class Storage>
 bool save_sheet(Storage& storage, const std::string& name, const Picture<Rgb888>& sheet,
@@ -177,11 +159,9 @@ ExitCode sheet_command(Io& io, const std::vector<std::string>& words) {
             "needs a picture, the picture to write and a pipeline, such as: fovea sheet in.jpg sheet.png "
             "box:5";
     if (problem.empty()) problem = picture_name_problem(operands[1]);
+    if (problem.empty()) whole_option(arguments, "columns", 1, detail::tile_columns_most, columns, problem);
     if (problem.empty())
-        detail::whole_option(arguments, "columns", 1, detail::tile_columns_most, columns, problem);
-    if (problem.empty())
-        detail::whole_option(arguments, "tile", detail::tile_side_least, detail::tile_side_most, side,
-                             problem);
+        whole_option(arguments, "tile", detail::tile_side_least, detail::tile_side_most, side, problem);
     std::vector<std::vector<PipelineStep>> pipelines;
     for (std::size_t i = 2; i < operands.size() && problem.empty(); ++i) {
         pipelines.emplace_back();

@@ -14,7 +14,7 @@
 #include <op/op_command.hpp>
 #include <op/ops_command.hpp>
 #include <support/json.hpp>
-#include <support/test_io.hpp>
+#include <support/picture_tool.hpp>
 
 namespace fovea::test {
 namespace {
@@ -23,34 +23,12 @@ using apps::ExitCode;
 using apps::Picture;
 using Words = std::vector<std::string>;
 
-class OpCommand : public ::testing::Test {
+class OpCommand : public PictureTool {
 protected:
-    OpCommand() : source(Size{23, 11}) {
-        for (int y = 0; y < 11; ++y)
-            for (int x = 0; x < 23; ++x)
-                source.view()(x, y) = static_cast<Gray8>(x > 6 && y > 3 ? 180 + x : 20 + 3 * y);
-        std::string problem;
-        EXPECT_TRUE(apps::save_picture(io.storage(), "in.png", source, problem)) << problem;
-    }
-    ExitCode run(const Words& words) {
-        io.hush();
-        return apps::op_command(io, words);
-    }
-    Picture<Gray8> written(const std::string& name) {
-        Picture<Gray8> picture;
-        std::string problem;
-        EXPECT_TRUE(apps::load_gray(io.storage(), name, picture, problem)) << problem;
-        return picture;
-    }
-    void refuses(const Words& words, const std::string& complaint) {
-        EXPECT_EQ(run(words), apps::exit_failed);
-        EXPECT_EQ(io.errors(), complaint + "\n");
-        EXPECT_EQ(io.out, "");
-        EXPECT_FALSE(io.has("out.png"));
-    }
+    OpCommand()
+        : PictureTool(apps::op_command<TestIo>, {23, 11},
+                      [](int x, int y) { return x > 6 && y > 3 ? 180 + x : 20 + 3 * y; }) {}
 
-    TestIo io;
-    Picture<Gray8> source;
     std::vector<std::uint8_t> scratch = std::vector<std::uint8_t>(100000);
     Span<std::uint8_t> memory() { return {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}; }
 };

@@ -72,7 +72,7 @@ TEST_F(PictureCommands, CompareAllowsWhatItIsToldTo) {
     EXPECT_EQ(compare({"--tolerance", "2", "a.pgm", "b.pgm"}), apps::exit_not_ok);
     for (const char* wrong : {"-1", "256", "1.5", "x"}) {
         EXPECT_EQ(compare({"--tolerance=" + std::string(wrong), "a.pgm", "b.pgm"}), apps::exit_failed);
-        EXPECT_EQ(io.errors(), "fovea compare: --tolerance takes grey levels from 0 to 255, not '" +
+        EXPECT_EQ(io.errors(), "fovea compare: --tolerance takes a whole number from 0 to 255, not '" +
                                    std::string(wrong) + "'\n");
     }
 }

@@ -7,42 +7,18 @@
 #include <fovea/pixelwise/threshold.hpp>
 
 #include <op/sheet_command.hpp>
-#include <support/test_io.hpp>
+#include <support/picture_tool.hpp>
 
 namespace fovea::test {
 namespace {
 
-using apps::ExitCode;
 using apps::Picture;
-using Words = std::vector<std::string>;
 
-class SheetCommand : public ::testing::Test {
+class SheetCommand : public PictureTool {
 protected:
-    SheetCommand() : source(Size{60, 40}) {
-        for (int y = 0; y < 40; ++y)
-            for (int x = 0; x < 60; ++x) source.view()(x, y) = static_cast<Gray8>(x < 30 ? 20 + y : 200 - y);
-        std::string problem;
-        EXPECT_TRUE(apps::save_picture(io.storage(), "in.png", source, problem)) << problem;
-    }
-    ExitCode run(const Words& words) {
-        io.hush();
-        return apps::sheet_command(io, words);
-    }
-    Picture<Gray8> written(const std::string& name) {
-        Picture<Gray8> picture;
-        std::string problem;
-        EXPECT_TRUE(apps::load_gray(io.storage(), name, picture, problem)) << problem;
-        return picture;
-    }
-    void refuses(const Words& words, const std::string& complaint) {
-        EXPECT_EQ(run(words), apps::exit_failed);
-        EXPECT_EQ(io.errors(), complaint + "\n");
-        EXPECT_EQ(io.out, "");
-        EXPECT_FALSE(io.has("out.png"));
-    }
-
-    TestIo io;
-    Picture<Gray8> source;
+    SheetCommand()
+        : PictureTool(apps::sheet_command<TestIo>, {60, 40},
+                      [](int x, int y) { return x < 30 ? 20 + y : 200 - y; }) {}
 };
 
 TEST_F(SheetCommand, ShowsThePictureAndWhatPipelinesMakeOfIt) {
@@ -112,9 +88,10 @@ TEST_F(SheetCommand, SaysWhatIsWrong) {
     refuses({"in.png", "out.png", "erode:4"}, "fovea sheet: erode: width is 1, 3 ... 63, not '4'");
     refuses({"in.png", "out.png", "absolute_difference"},
             "fovea sheet: absolute_difference takes two pictures: name the other one with --second");
-    refuses({"--tile=20", "in.png", "out.png", "invert"}, "fovea sheet: --tile is 32 to 1024, not '20'");
+    refuses({"--tile=20", "in.png", "out.png", "invert"},
+            "fovea sheet: --tile takes a whole number from 32 to 1024, not '20'");
     refuses({"--columns", "two", "in.png", "out.png", "invert"},
-            "fovea sheet: --columns is 1 to 16, not 'two'");
+            "fovea sheet: --columns takes a whole number from 1 to 16, not 'two'");
     refuses({"in.png", "out.png", "threshold_range:9,3"},
             "fovea sheet: threshold_range: a parameter is out of its range (60x40)");
     refuses({"none.png", "out.png", "invert"}, "none.png: simulated fault");

@@ -28,6 +28,11 @@ namespace catalogue {
 inline constexpr OperatorParameter border_choice{
     "border", 0, 2, 0, 1, "what stands outside the image", "replicate|reflect_101|zero"};
 
+inline constexpr OperatorParameter window_width{"width", 1, max_window_rows,
+                                                7,       2, "columns of the rectangle, odd"};
+inline constexpr OperatorParameter window_height{
+    "height", 1, max_window_rows, 7, 2, "rows of the rectangle, odd", nullptr, true};
+
 constexpr Border border_of(int value) {
     return value == 1 ? Border::reflect_101 : value == 2 ? Border::zero : Border::replicate;
 }
@@ -143,9 +148,7 @@ inline constexpr Operator filter[] = {
      "2.6.2",
      {PixelKind::gray8},
      PixelKind::gray8,
-     {{"width", 1, max_window_rows, 7, 2, "columns of the rectangle, odd"},
-      {"height", 1, max_window_rows, 7, 2, "rows of the rectangle, odd", nullptr, true},
-      border_choice},
+     {window_width, window_height, border_choice},
      nullptr,
      [](Size size, const int*) { return box_scratch(size); },
      [](const OperatorCall& c) {
@@ -161,9 +164,7 @@ inline constexpr Operator filter[] = {
      "",
      {PixelKind::gray8},
      PixelKind::gray8,
-     {{"width", 1, max_window_rows, 7, 2, "columns of the rectangle, odd"},
-      {"height", 1, max_window_rows, 7, 2, "rows of the rectangle, odd", nullptr, true},
-      border_choice},
+     {window_width, window_height, border_choice},
      nullptr,
      [](Size size, const int* values) {
          return median_scratch(size, {values[0], values[1]});
