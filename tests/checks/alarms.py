@@ -99,6 +99,8 @@ def hygiene(folder):
               ("a machine path", "cd /ro" + "ot/fovea\n", "a path of one machine"),
               ("a registry", "see https://pypi" + ".org/simple\n", "a package registry"),
               ("a promise", "// TO" + "DO: later\n", "work put off"),
+              ("two glued fields", "/// Border    none Errors    none\n", "two fields of a docstring in one line"),
+              ("a long comment", "// " + 36 * "abc" + "\n", "a comment of more than 110 columns"),
               ("a conflict", "<<<<<<" + "< HEAD\n", "a conflict left over")]
     for number, (what, text, words) in enumerate(faults):
         yield what, [CHECKS / "hygiene.py", write(folder / str(number), {"README.md": text})], words

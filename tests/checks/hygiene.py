@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every text file of the project: no paths of one machine, no package registries, nothing put off.
+"""Every text file of the project: no paths of one machine, no package registries, nothing put off, comments as they are to be.
 
 usage: hygiene.py [ROOT]
 """
@@ -12,6 +12,8 @@ FORBIDDEN = {
     "a package registry": r"\b(pypi|npmjs|crates|quay|ghcr|docker|conan|vcpkg)\.(org|com|io)\b|files\.pythonhosted|deb\.debian",
     "work put off": r"\b(TO[D]O|FIX[M]E|X[X]X)\b",
     "a conflict left over": r"^(<{7}|>{7}) ",
+    "two fields of a docstring in one line": r"^\s*/// .*\S +(Shapes|Units|Rounding|Border|Overlap|Scratch|Errors|Source)  +\S",
+    "a comment of more than 110 columns": r"^(?=.{111})\s*//.*",
 }
 NOT_OURS = {".git", "build", "out"}
 

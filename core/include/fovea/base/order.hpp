@@ -35,8 +35,7 @@ constexpr void sort(Span<T> elements);
 /// The same for elements most of which are near their places already, such as what a scan finds row by row.
 ///
 /// Cost    n^1.5 comparisons at most, few more than n for each power of three in n where little is to be
-/// moved; no
-///         memory
+///         moved; no memory
 /// Source  Shell, "A High-Speed Sorting Procedure", CACM 2(7), 1959; gaps after Knuth, "The Art of Computer
 ///         Programming", vol. 3, sec. 5.2.1
 template <class T, class Less>

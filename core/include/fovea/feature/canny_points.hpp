@@ -44,9 +44,8 @@ struct EdgePoint {
 /// Errors    empty_image, size_mismatch; capacity_exceeded: points holds the strongest, of equal ones the
 ///           first
 /// Source    book sec. 2.8.4. The curve is a parabola through the logarithms: a mean error of 0.01 px across
-/// a
-///           blurred edge, where the toolkit's parabola through the strengths has up to 0.1 px on diagonals.
-///           The toolkit divided the step on diagonals by the root of 2 once too often besides
+///           a blurred edge, where the toolkit's parabola through the strengths has up to 0.1 px on
+///           diagonals. The toolkit divided the step on diagonals by the root of 2 once too often besides
 inline Status canny_points(ImageView<const Gray8> src, ImageView<const Gray8> edges, Border border,
                            ListView<EdgePoint> points);
 

@@ -35,12 +35,12 @@ enum class EdgeSmoothing : std::uint8_t {
 };
 
 struct FindCirclesOptions {
-    EdgeSmoothing smoothing =
-        EdgeSmoothing::gaussian_3x3;  ///< more of it finds less in noise, and costs a frame
-    int low = 60;                     ///< of canny(): |x| + |y| that goes on with an edge, 0..2040
-    int high = 120;                   ///< that begins one, low..2040
-    int max_points =
-        8000;  ///< room for points of edges, 20 bytes each, 1 or more: 1 to 3 % of the pixels suffice
+    /// More of it finds less in noise, and costs a frame.
+    EdgeSmoothing smoothing = EdgeSmoothing::gaussian_3x3;
+    int low = 60;    ///< of canny(): |x| + |y| that goes on with an edge, 0..2040
+    int high = 120;  ///< that begins one, low..2040
+    /// Room for points of edges, 20 bytes each, 1 or more: 1 to 3 % of the pixels suffice.
+    int max_points = 8000;
     HoughCircleOptions circles;
 };
 
@@ -55,8 +55,7 @@ constexpr std::int64_t find_circles_scratch(Size size, const FindCirclesOptions&
 /// Shapes    1x1 to 32767x32767
 /// Units     pixels
 /// Rounding  centre and radius to 1/256 px; within 0.1 px of the truth where a clean circle of a radius of 8
-/// px or
-///           more is seen whole
+///           px or more is seen whole
 /// Border    the outermost pixels repeat
 /// Scratch   find_circles_scratch(src.size(), options) bytes, undefined afterwards
 /// Errors    empty_image; image_too_large above max_image_side; bad_argument; scratch_too_small;

@@ -28,8 +28,8 @@ inline namespace FOVEA_ISA {
 constexpr std::int64_t harris_scratch(Size size);
 
 /// The response of every pixel: above zero at corners and spots, below it on edges, near zero where there is
-/// nothing. With p and q the differences of the neighbours across and down, and A, B, C the sums of p * p, q
-/// * q and p * q over 3x3 pixels by 16, it is A * B - C * C - ((A + B) / 4)^2.
+/// nothing. With p and q the differences of the neighbours across and down, and A, B, C the sums of p * p,
+/// q * q and p * q over 3x3 pixels by 16, it is A * B - C * C - ((A + B) / 4)^2.
 ///
 /// Shapes    src and dst equal, 1x1 or larger
 /// Units     magnitudes below 1.7e9; 256 times as much for a contrast that is 4 times as high
@@ -39,8 +39,8 @@ constexpr std::int64_t harris_scratch(Size size);
 /// Scratch   harris_scratch(src.size()) bytes, undefined afterwards
 /// Errors    empty_image, size_mismatch, scratch_too_small
 /// Source    Harris and Stephens, "A combined corner and edge detector", AVC 1988, with kappa 1/16; the
-/// numbers
-///           of the toolkit's CalculateHarrisMap, which left a frame of two pixels of zeros and said 0.04
+///           numbers of the toolkit's CalculateHarrisMap, which left a frame of two pixels of zeros and said
+///           0.04
 inline Status harris_response(ImageView<const Gray8> src, Border border, Span<std::uint8_t> scratch,
                               ImageView<Response32> dst);
 

@@ -56,8 +56,7 @@ constexpr std::int64_t harris_points_scratch(Size size, const HarrisPointOptions
 /// Rounding  none: places are whole pixels
 /// Border    of the picture as border says
 /// Order     by response; of equal ones the higher, then the more left first. Of equal neighbours the first
-/// is
-///           the maximum
+///           is the maximum
 /// Scratch   harris_points_scratch(src.size(), options) bytes, undefined afterwards: some rows and the
 ///           candidates, never a frame
 /// Errors    empty_image; bad_argument; scratch_too_small; capacity_exceeded: points holds the strongest, or,

@@ -46,11 +46,10 @@ constexpr std::int64_t hough_circles_scratch(Size size, std::int64_t points,
 ///           measure/fit_circle.hpp makes more of the points
 /// Order     by votes; of equal ones the higher, then the more left, then the smaller circle first
 /// Scratch   hough_circles_scratch(size, points.size(), options) bytes, undefined afterwards: a 16-bit
-/// counter
-///           a cell, a byte a point
+///           counter a cell, a byte a point
 /// Cost      points * (max_radius - min_radius) / cell votes, and some looks at all points for every circle
-/// and every miss Errors    empty_image; image_too_large above max_image_side; bad_argument;
-/// scratch_too_small;
+///           and every miss
+/// Errors    empty_image; image_too_large above max_image_side; bad_argument; scratch_too_small;
 ///           capacity_exceeded: circles holds the strongest
 /// Source    book sec. 2.8.4; Davies, Machine Vision, for the two stages. The toolkit counted in three
 ///           dimensions, 104 MB at 640x480 for radii of 10 to 100, and its suppression tested the wrong

@@ -50,14 +50,14 @@ constexpr std::int64_t hough_lines_scratch(Size size, const HoughLineOptions& op
 /// Shapes    1x1 or larger
 /// Units     steps of the options; distances are whole steps from the middle of the image
 /// Rounding  nearest step; the position of a pixel is exact to 1/8 step in the largest image, 1/200 at
-/// 640x480 Order     by votes; of equal ones the lower angle, then the lower distance in the middle's measure
+///           640x480
+/// Order     by votes; of equal ones the lower angle, then the lower distance in the middle's measure
 /// Scratch   hough_lines_scratch(edges.size(), options) bytes, undefined afterwards: 16-bit counters,
 ///           angles * diagonal / distance_step of them
 /// Errors    empty_image; image_too_large where a line could have more than 65535 votes; bad_argument for
 ///           options out of range; scratch_too_small; capacity_exceeded: lines holds the strongest
 /// Source    Duda and Hart, CACM 15(1), 1972; book sec. 2.8.4. The toolkit's function refused every gray
-/// image,
-///           and struck out with the wrong sign beyond half a turn
+///           image, and struck out with the wrong sign beyond half a turn
 inline Status hough_lines(ImageView<const Gray8> edges, const HoughLineOptions& options,
                           Span<std::uint8_t> scratch, ListView<PolarLine> lines);
 

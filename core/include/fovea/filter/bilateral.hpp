@@ -47,8 +47,7 @@ constexpr std::int64_t bilateral_scratch(Size size, const BilateralOptions& opti
 /// Shapes    src and dst equal, 1x1 or larger
 /// Units     grey levels in and out
 /// Rounding  to the nearest, ties away from the pixel, of a mean that is within 0.2 of the real one, and
-/// within
-///           0.6 where a pixel differs from all of its neighbours alike: weights are right to 0.3 % of
+///           within 0.6 where a pixel differs from all of its neighbours alike: weights are right to 0.3 % of
 ///           themselves and 1/32767 of the pixel's own, and are summed exactly. A flat image stays what it
 ///           is, and an inverted one gives the inverted means
 /// Border    as border says

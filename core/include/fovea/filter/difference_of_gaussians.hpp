@@ -36,8 +36,8 @@ constexpr std::int64_t difference_of_gaussians_scratch(Size size);
 /// Border    as border says
 /// Overlap   none: dst must not share pixels with src
 /// Scratch   difference_of_gaussians_scratch(src.size()) bytes, undefined afterwards: some rows, never a
-/// frame Errors    empty_image, size_mismatch; bad_argument for a sigma that gaussian() refuses, but for a
-/// fine one
+///           frame
+/// Errors    empty_image, size_mismatch; bad_argument for a sigma that gaussian() refuses, but for a fine one
 ///           of 0, and unless fine < coarse; scratch_too_small
 /// Source    the toolkit's demo of stereo took the picture less its Gaussian of sigma 2.1
 inline Status difference_of_gaussians(ImageView<const Gray8> src, SubPixel fine, SubPixel coarse,

@@ -50,15 +50,14 @@ constexpr std::int64_t gaussian_scratch(Size size);
 /// Shapes    src and dst equal, 1x1 or larger
 /// Units     grey levels in and out; sigma in pixels
 /// Rounding  to the nearest of a value that is within 1/4 of what the taps give: both directions are summed
-/// in 1/128
-///           of a level, each product rounded down and half of that put back. A flat image stays what it is
+///           in 1/128 of a level, each product rounded down and half of that put back. A flat image stays
+///           what it is
 /// Border    as border says
 /// Overlap   none: dst must not share pixels with src
 /// Scratch   gaussian_scratch(src.size()) bytes, undefined afterwards
 /// Errors    empty_image, size_mismatch, bad_argument as gaussian_taps(), scratch_too_small
 /// Source    book sec. 2.6.2; the toolkit's GaussianSmooth left out the last tap at the bottom, which
-/// darkened the last
-///           rows
+///           darkened the last rows
 inline Status gaussian(ImageView<const Gray8> src, SubPixel sigma, Border border, Span<std::uint8_t> scratch,
                        ImageView<Gray8> dst);
 

@@ -36,8 +36,7 @@ constexpr std::int64_t median_5x5_scratch(Size size);
 /// Scratch  median_3x3_scratch(src.size()) bytes, undefined afterwards
 /// Errors   empty_image, size_mismatch, scratch_too_small
 /// Source   Smith, "Implementing median filters in XC4000E FPGAs", Xcell 23, 1996: columns are sorted once,
-/// and
-///          three extremes of sorted columns hold the median
+///          and three extremes of sorted columns hold the median
 inline Status median_3x3(ImageView<const Gray8> src, Border border, Span<std::uint8_t> scratch,
                          ImageView<Gray8> dst);
 

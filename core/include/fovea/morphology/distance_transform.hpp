@@ -40,8 +40,7 @@ constexpr std::int64_t chamfer_distance_scratch(Size size) { return arena_bytes<
 /// Scratch   squared_distance_scratch(src.size()) bytes, undefined afterwards
 /// Errors    empty_image, size_mismatch, image_too_large, scratch_too_small
 /// Source    Meijster, Roerdink and Hesselink, "A general algorithm for computing distance transforms in
-/// linear
-///           time", 2000; lower envelopes as Felzenszwalb and Huttenlocher, 2012
+///           linear time", 2000; lower envelopes as Felzenszwalb and Huttenlocher, 2012
 inline Status squared_distance(ImageView<const Gray8> src, Span<std::uint8_t> scratch, ImageView<Sum32> dst);
 
 /// The length of the shortest way to a zero pixel in steps of 3 to a neighbour and 4 across a corner: about

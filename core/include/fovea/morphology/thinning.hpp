@@ -36,8 +36,7 @@ constexpr std::int64_t thin_scratch(Size size) { return 2 * (std::int64_t{size.w
 /// second from the upper left, with zhang_suen; with guo_hall from above and right first.
 ///
 /// Shapes   src and dst equal, 1x1 or larger; passes 1 to most_thinning_passes: a region is one pixel thinner
-/// all around after
-///          each. Zero is ground, all else belongs
+///          all around after each. Zero is ground, all else belongs
 /// Units    255 where something is left, 0 elsewhere
 /// Border   beyond the image is ground
 /// Overlap  dst may be src

@@ -23,8 +23,7 @@ using Log2 = Fixed<std::int32_t, 16>;
 /// mantissa * 2^exponent.
 ///
 /// Range     mantissa 0, or 2^61 to 2^62 - 1 in magnitude; exponents of results must stay within 2^30: the
-/// user
-///           states why they do
+///           user states why they do
 /// Rounding  to 62 digits: a product and a quotient to a relative 2^-60, a sum to 2^-60 of the larger number.
 ///           Digits do not depend on signs
 class Scaled {

@@ -50,8 +50,7 @@ inline constexpr int max_gamma = 1000;
 ///
 /// Units     gamma in 1/100, held at min_gamma and max_gamma
 /// Rounding  nearest, of logarithms to 2^-24: a level can differ from the rounded real value only where that
-/// is within
-///           gamma / 10^6 of a half. All tables were compared with real powers and none differs
+///           is within gamma / 10^6 of a half. All tables were compared with real powers and none differs
 /// Source    book sec. 2.12.7 recommends tables
 constexpr LookupTable gamma_table(int gamma);
 
@@ -78,7 +77,7 @@ inline Status apply_lut(ImageView<const Gray8> src, const LookupTable& table, Im
 /// affine_table() applied: scale x + offset, held at 0 and 255. All else as apply_lut().
 ///
 /// Errors  also bad_argument for a scale beyond max_affine_scale or an offset beyond max_affine_offset to
-/// either side
+///         either side
 inline Status affine(ImageView<const Gray8> src, Ratio scale, GrayLevel offset, ImageView<Gray8> dst);
 
 /// scale x, held at 0 and 255. All else as affine().

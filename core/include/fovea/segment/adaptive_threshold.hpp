@@ -68,10 +68,13 @@ inline Status adaptive_threshold_inverse(ImageView<const Gray8> src, int side, i
 /// Shapes    as adaptive_threshold()
 /// Units     weight in 1/256, 0 to max_sauvola_weight; 51 to 128 (0.2 to 0.5) are usual
 /// Rounding  the deviation down to 1 / side^2 of a level; then none, in 64 bits: the largest product is below
-/// 2^57 Border    the outermost pixels repeat Overlap   none Scratch   sauvola_threshold_scratch(src.size(),
-/// side) bytes, undefined afterwards Errors    empty_image, size_mismatch, bad_argument, scratch_too_small
+///           2^57
+/// Border    the outermost pixels repeat
+/// Overlap   none
+/// Scratch   sauvola_threshold_scratch(src.size(), side) bytes, undefined afterwards
+/// Errors    empty_image, size_mismatch, bad_argument, scratch_too_small
 /// Source    Sauvola, Pietikainen, "Adaptive document image binarization", Pattern Recognition 33, 2000, eq.
-/// 5
+///           5
 inline Status sauvola_threshold(ImageView<const Gray8> src, int side, int weight, Span<std::uint8_t> scratch,
                                 ImageView<Gray8> dst);
 

@@ -33,11 +33,9 @@ constexpr std::int64_t approximate_polygon_scratch(std::int64_t count) { return 
 /// Cost     n log n as a rule; n^2 for a spiral, where every piece loses one point at its end. The stack is
 ///          bounded: the shorter part is done first
 /// Errors   not_found if there are no points; bad_argument for a tolerance out of range, or points farther
-/// apart
-///          than max_polygon_extent; scratch_too_small; capacity_exceeded, with the list as it was
+///          apart than max_polygon_extent; scratch_too_small; capacity_exceeded, with the list as it was
 /// Source   Ramer, "An iterative procedure for the polygonal approximation of plane curves", 1972; Douglas
-/// and
-///          Peucker, 1973. Distances are from the piece, not from the line through it; they are compared
+///          and Peucker, 1973. Distances are from the piece, not from the line through it; they are compared
 ///          exactly
 inline Status approximate_polygon(Span<const Point> points, Closure closure, SubPixel tolerance,
                                   Span<std::uint8_t> scratch, ListView<Point> corners);

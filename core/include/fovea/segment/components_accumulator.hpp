@@ -21,8 +21,7 @@ namespace fovea {
 /// Shapes   images up to max_moment_side squared; zero is ground, all else belongs
 /// Scratch  connected_components_scratch<Accumulated>(width) bytes, in use until finish()
 /// Errors   of begin(): what ConnectedComponentsOf says to its parameters, and image_too_large; the lists are
-/// as
-///          they were. Of finish(): as there, and out_of_range if it was a strip, with both lists empty
+///          as they were. Of finish(): as there, and out_of_range if it was a strip, with both lists empty
 /// Source   as connected_components()
 template <class Accumulated>
 class ComponentsAccumulatorOf {

@@ -27,8 +27,7 @@ constexpr std::int64_t convex_hull_scratch(std::int64_t count) { return arena_by
 ///
 /// Shapes   any number of points in any order, some of them equal
 /// Order    clockwise on screen from the leftmost, of several the uppermost; no corner lies on the line of
-/// its
-///          neighbours. Equal points give one corner, points on a line its two ends
+///          its neighbours. Equal points give one corner, points on a line its two ends
 /// Scratch  convex_hull_scratch(points.size()) bytes, undefined afterwards
 /// Cost     with the count where the points are as many as the columns they reach over, as those of a contour
 ///          are; else n log n

@@ -42,8 +42,7 @@ constexpr std::int64_t label_image_scratch(Size size) {
 /// Overlap  none
 /// Scratch  label_image_scratch(src.size(), pieces) bytes, undefined afterwards
 /// Errors   empty_image, size_mismatch, image_too_large; scratch_too_small; capacity_exceeded if there are
-/// more
-///          pieces than max_image_labels or the scratch has room for, with dst undefined
+///          more pieces than max_image_labels or the scratch has room for, with dst undefined
 /// Source   book sec. 2.8.3; runs and union-find after Rosenfeld and Pfaltz, JACM 13(4), 1966
 inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity connectivity,
                                Span<std::uint8_t> scratch, ImageView<Label16> dst);

@@ -37,8 +37,7 @@ struct RotatedRectangle {
 /// Errors    not_found if there are no corners; bad_argument if they are farther apart than
 ///           max_polygon_extent or no convex polygon clockwise on screen
 /// Source    one side lies on an edge of the hull: Freeman and Shapira, "Determining the minimum-area
-/// encasing
-///           rectangle for an arbitrary closed curve", 1975; rotating calipers after Toussaint, 1983
+///           encasing rectangle for an arbitrary closed curve", 1975; rotating calipers after Toussaint, 1983
 constexpr Result<RotatedRectangle> minimum_area_rectangle(Span<const Point> hull);
 
 // ---- Implementation ---------------------------------------------------------------

@@ -36,20 +36,17 @@ constexpr std::int64_t clahe_scratch(Size size, Size tiles) {
 /// above that is dealt out to all levels alike, so that noise in flat places is not stretched without bound.
 ///
 /// Shapes    src and dst equal, 1x1 or larger; tiles 1x1 to 32x32, and never more than pixels: tile i of n
-/// covers the
-///           columns from i width / n to (i + 1) width / n - 1
+///           covers the columns from i width / n to (i + 1) width / n - 1
 /// Units     clip in 1/100, min_clahe_clip to max_clahe_clip
 /// Rounding  tables to the nearest, ties up; weights to the nearest of 1/256, the blend to the nearest, ties
-/// up. The
-///           largest sum is 255 * 2^16 + 2^15
+///           up. The largest sum is 255 * 2^16 + 2^15
 /// Border    beyond the centres of the outermost tiles their tables alone count
 /// Overlap   dst may be src
 /// Scratch   clahe_scratch(src.size(), tiles) bytes, undefined afterwards
 /// Errors    empty_image, size_mismatch, bad_argument, scratch_too_small
 /// Source    Zuiderveld, "Contrast Limited Adaptive Histogram Equalization", Graphics Gems IV, 1994. OpenCV
-/// pads the
-///           image to whole tiles of one size with mirrored pixels, puts the centre of a tile half a pixel
-///           further right and down, and blends with real weights
+///           pads the image to whole tiles of one size with mirrored pixels, puts the centre of a tile half a
+///           pixel further right and down, and blends with real weights
 inline Status clahe(ImageView<const Gray8> src, Size tiles, int clip, Span<std::uint8_t> scratch,
                     ImageView<Gray8> dst);
 

@@ -27,9 +27,8 @@ struct ColourFloors {
 /// of a stream.
 ///
 /// Units   counts of pixels, at most 2^32 - 1 in all. HueBins share the 180 hues, SaturationBins the 256
-/// saturations;
-///         bin i of n holds the values v with i = n v / 180 or n v / 256, rounded down. A hue above 179
-///         counts as 179
+///         saturations; bin i of n holds the values v with i = n v / 180 or n v / 256, rounded down. A hue
+///         above 179 counts as 179
 /// Memory  4 bytes a bin; on 64-bit processors four times that up to 1024 bins
 /// Source  book sec. 2.5.2
 template <int HueBins = 18, int SaturationBins = 8>

@@ -22,10 +22,10 @@ inline constexpr int max_compared_bins = 65536;
 /// The sum of min(p, q): 1 for equal shares, 0 where no bin is in both.
 ///
 /// Rounding  shares to 2^-40, the result to the nearest of 1/65536, ties up: with 256 bins off by a unit only
-/// where the
-///           true value is within 2^-16 of a unit of a half
+///           where the true value is within 2^-16 of a unit of a half
 /// Errors    empty_image if one has no pixel, size_mismatch for different bins, bad_argument above
-/// max_compared_bins Source    Swain, Ballard, "Color Indexing", IJCV 7(1), 1991
+///           max_compared_bins
+/// Source    Swain, Ballard, "Color Indexing", IJCV 7(1), 1991
 template <class First, class Second>
 constexpr Result<Ratio> histogram_intersection(const First& a, const Second& b);
 
@@ -54,8 +54,7 @@ constexpr Result<Ratio> bhattacharyya_distance(const First& a, const Second& b);
 /// Errors    also bad_argument above 32768 bins, where the distance could exceed its format
 /// Others    as histogram_intersection()
 /// Source    Rubner, Tomasi, Guibas, "The Earth Mover's Distance as a Metric for Image Retrieval", IJCV
-/// 40(2), 2000;
-///           in one dimension it is this sum
+///           40(2), 2000; in one dimension it is this sum
 template <class First, class Second>
 constexpr Result<GrayLevel> earth_movers_distance(const First& a, const Second& b);
 

@@ -27,8 +27,7 @@ inline namespace FOVEA_ISA {
 ///
 /// Shapes   dst integral_size(src.size())
 /// Units    sums modulo 2^32: up to 16.8 million pixels none is reduced, and beyond that rectangle_sum() is
-/// still
-///          right for every rectangle of up to 16.8 million pixels
+///          still right for every rectangle of up to 16.8 million pixels
 /// Overlap  none
 /// Errors   empty_image, size_mismatch
 /// Source   the toolkit's CalculateSummedAreaTable, with the zeros that its GetAreaSum had to imagine

@@ -40,8 +40,7 @@ struct RotationalAxis {
 /// Units     pixels; the edges may be given with 1/65536 px and count with 1/256. Rows are `aspect` times as
 ///           far apart as columns, 1/4 to 4
 /// Rounding  an edge weighs the area of its triangle with the origin, all of it in the direction of the
-/// middle
-///           of the edge: short edges, such as those of a contour, give the integral
+///           middle of the edge: short edges, such as those of a contour, give the integral
 /// Source    Fourier series of r^2 / 2 over the angle, which is the area of a sector; Zahn and Roskies,
 ///           "Fourier Descriptors for Plane Closed Curves", 1972, do the same with the tangent
 class PolygonSymmetry {

@@ -22,15 +22,15 @@ namespace fovea {
 ///
 /// Units     px; coefficients are right to 2^-41
 /// Errors    degenerate where the three places lie on a line; out_of_range for a coefficient that does not
-/// fit Source    Cramer's rule, in 128 bits
+///           fit
+/// Source    Cramer's rule, in 128 bits
 constexpr Result<AffineTransform> affine_through(const FinePoint (&from)[3], const FinePoint (&to)[3]);
 
 /// The homography that takes each of four places to its partner: a tilted rectangle made upright, a code or a
 /// card rectified. As the map of a warp, from are the corners in the output and to those in the source.
 ///
 /// Units     px; the four places are met to 2^-10 px where no three of a side span less than a sixteenth of
-/// the
-///           square around them
+///           the square around them
 /// Errors    degenerate where three of the places or of their partners lie on a line, or where the horizon
 ///           would pass between the places: one quadrilateral is convex and the other is not, or they turn
 ///           about differently

@@ -38,14 +38,13 @@ struct PolarFrame {
     FineAngle start;  ///< direction of row 0; the rows make one turn, clockwise on screen
 };
 
-/// The place in the source of pixel (x, y) of a polar image of a size: centre + r (cos a, sin a), where a =
-/// start
-/// + y / height of a turn, and r = inner (outer / inner)^(x / width) or inner + (outer - inner) x / width.
+/// The place in the source of pixel (x, y) of a polar image of a size: centre + r (cos a, sin a), where
+/// a = start + y / height of a turn, and r = inner (outer / inner)^(x / width) or
+/// inner + (outer - inner) x / width.
 ///
 /// Rounding  to within outer * 2^-25 and 1/65536 px
 /// Errors    empty_image; bad_argument for radii that make no ring; out_of_range for a pixel beyond the image
-/// or
-///           a place beyond 32767 px
+///           or a place beyond 32767 px
 constexpr Result<FinePoint> polar_place(const PolarFrame& frame, Size size, Point pixel);
 
 /// Scratch bytes of warp_polar() for an output of that size.

@@ -34,9 +34,13 @@ constexpr std::int64_t pyramid_up_scratch(Size size);
 /// Every second pixel of src after a low-pass of 1 4 6 4 1 along rows and columns.
 ///
 /// Shapes    src 1x1 or larger; dst pyramid_down_size(src.size()). Pixel (x, y) of dst lies on (2x, 2y) of
-/// src Units     any 8-bit values Rounding  nearest, ties up, once; the largest sum is 255 * 256 and fits 16
-/// bits Border    the outermost pixels repeat Overlap   none Scratch   pyramid_down_scratch(src.size())
-/// bytes, undefined afterwards Errors    empty_image, size_mismatch, image_too_large, scratch_too_small
+///           src
+/// Units     any 8-bit values
+/// Rounding  nearest, ties up, once; the largest sum is 255 * 256 and fits 16 bits
+/// Border    the outermost pixels repeat
+/// Overlap   none
+/// Scratch   pyramid_down_scratch(src.size()) bytes, undefined afterwards
+/// Errors    empty_image, size_mismatch, image_too_large, scratch_too_small
 /// Source    Burt and Adelson's pyramid with binomial weights. An output row needs 5 source rows
 inline Status pyramid_down(ImageView<const Gray8> src, Span<std::uint8_t> scratch, ImageView<Gray8> dst);
 
