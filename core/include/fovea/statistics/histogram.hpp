@@ -18,7 +18,7 @@ namespace fovea {
 // ---- Interface --------------------------------------------------------------------
 
 /// How often each grey level occurs. An accumulator: it takes rows in any number of calls, also at the end of
-/// a stream; of strips add() makes the whole.
+/// a stream; merge() joins those of strips.
 ///
 /// Units   counts of pixels; at most 2^32 - 1 in all, so every image up to 65535 x 65535 fits
 /// Memory  1 KiB on 32-bit chips, 4 KiB elsewhere
