@@ -45,7 +45,7 @@ void put(Digest& digest, const Consensus<Model>& consensus) {
 inline void segment_runs(Workspace& work, Digest& digest) {
     Arena arena(work.scratch_span());
     RunRow row(arena.take<Run>(212));
-    RunRow narrow(arena.take<Run>(9));
+    RunRow narrow(arena.take<Run>(10));
     const auto add_runs = [&](RunRow& runs, const Gray8* pixels, int width) {
         digest.add(runs.split(pixels, width));
         digest.add(runs.count());

@@ -154,6 +154,8 @@ TEST(LeadingZeros, CountsThemAndTakesZero) {
     EXPECT_EQ(leading_zeros(std::uint64_t{0}), 64);
     for (int bit = 0; bit < 32; ++bit) EXPECT_EQ(leading_zeros(std::uint32_t{1} << bit), 31 - bit);
     for (int bit = 0; bit < 64; ++bit) EXPECT_EQ(leading_zeros(~std::uint64_t{0} >> bit), bit);
+    for (int bit = 0; bit < 32; ++bit) EXPECT_EQ(trailing_zeros(~std::uint32_t{0} << bit), bit);
+    for (int bit = 0; bit < 64; ++bit) EXPECT_EQ(trailing_zeros(std::uint64_t{1} << bit), bit);
 }
 
 TEST(Isqrt, IsExactAboutEverySquareOf32Bits) {

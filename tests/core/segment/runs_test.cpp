@@ -50,7 +50,7 @@ TEST(RunRow, CutsARowByHand) {
 
 TEST(RunRow, EqualsCuttingPixelByPixel) {
     Random random(631);
-    for (std::size_t width = 1; width <= 80; ++width)
+    for (std::size_t width = 1; width <= 200; width += width < 80 ? 1 : 7)
         for (const std::uint32_t longest : {1u, 3u, 12u, 40u}) {
             std::vector<std::uint8_t> row;
             while (row.size() < width) {
@@ -65,13 +65,29 @@ TEST(RunRow, EqualsCuttingPixelByPixel) {
 
 TEST(RunRow, SaysWhenThereAreMoreRunsThanRoom) {
     const std::uint8_t restless[] = {0, 1, 0, 1};
-    fovea::Run room[4];
-    RunRow three({room, 3});
+    fovea::Run room[5];
+    RunRow three({room, 4});
     EXPECT_EQ(three.split(restless, 4), Status::capacity_exceeded);
     EXPECT_EQ(three.split(restless, 3), Status::ok);
-    RunRow four({room, 4});
+    EXPECT_EQ(three.count(), 3);
+    RunRow four({room, 5});
     EXPECT_EQ(four.split(restless, 4), Status::ok);
     EXPECT_EQ(four.count(), 4);
+    EXPECT_EQ(RunRow().split(restless, 4), Status::capacity_exceeded);
+    // Rows that are wider than what is looked at in one go, with every room up to what they need.
+    const std::vector<std::uint8_t> alternating = [] {
+        std::vector<std::uint8_t> row(150);
+        for (std::size_t x = 1; x < row.size(); x += 2) row[x] = 255;
+        return row;
+    }();
+    std::vector<fovea::Run> wide(152);
+    for (std::ptrdiff_t size = 1; size <= 151; ++size) {
+        wide[static_cast<std::size_t>(size)] = {7, 7};
+        RunRow runs({wide.data(), size});
+        EXPECT_EQ(runs.split(alternating.data(), 150), size < 151 ? Status::capacity_exceeded : Status::ok)
+            << size;
+        EXPECT_EQ(wide[static_cast<std::size_t>(size)].label, 7) << size;
+    }
 }
 
 }  // namespace

@@ -27,6 +27,13 @@ public:
     /// count elements, every one equal to T{}. The room must be there: it was checked.
     template <class T>
     Span<T> take(std::ptrdiff_t count) {
+        const Span<T> elements = take_unset<T>(count);
+        for (T& element : elements) element = T{};
+        return elements;
+    }
+    /// The same with whatever the bytes hold, for elements that are written before they are read.
+    template <class T>
+    Span<T> take_unset(std::ptrdiff_t count) {
         static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,
                       "an arena holds plain data");
         const auto address = reinterpret_cast<std::uintptr_t>(rest_.data());
@@ -34,7 +41,6 @@ public:
         const std::ptrdiff_t bytes = count * static_cast<std::ptrdiff_t>(sizeof(T));
         FOVEA_ASSERT(count >= 0 && skip + bytes <= rest_.size());
         T* first = reinterpret_cast<T*>(rest_.data() + skip);
-        for (std::ptrdiff_t i = 0; i < count; ++i) first[i] = T{};
         rest_ = rest_.from(skip + bytes);
         return {first, count};
     }

@@ -81,6 +81,10 @@ constexpr T round_divide(T value, T divisor) {
 constexpr int leading_zeros(std::uint32_t value) { return value == 0 ? 32 : __builtin_clz(value); }
 constexpr int leading_zeros(std::uint64_t value) { return value == 0 ? 64 : __builtin_clzll(value); }
 
+/// Trailing zero bits of what is not zero.
+constexpr int trailing_zeros(std::uint32_t value) { return __builtin_ctz(value); }
+constexpr int trailing_zeros(std::uint64_t value) { return __builtin_ctzll(value); }
+
 /// The largest integer whose square is not above value.
 ///
 /// Time    three divisions of 32 bits, or four with the last of 64

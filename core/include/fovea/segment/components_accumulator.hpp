@@ -11,9 +11,11 @@
 #include <fovea/image/geometry.hpp>
 #include <fovea/segment/connected_components.hpp>
 #include <fovea/segment/region.hpp>
+#include <fovea/simd/isa.hpp>
 #include <fovea/statistics/moments.hpp>
 
 namespace fovea {
+inline namespace FOVEA_ISA {
 
 /// The components of the rows of a stream: an accumulator. Components reach across strips of a frame, so that
 /// it takes whole frames alone.
@@ -77,4 +79,5 @@ private:
 
 using ComponentsAccumulator = ComponentsAccumulatorOf<Moments>;
 
+}  // namespace FOVEA_ISA
 }  // namespace fovea

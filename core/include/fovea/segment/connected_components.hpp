@@ -16,9 +16,11 @@
 #include <fovea/segment/component_lists.hpp>
 #include <fovea/segment/region.hpp>
 #include <fovea/segment/runs.hpp>
+#include <fovea/simd/isa.hpp>
 #include <fovea/statistics/moments.hpp>
 
 namespace fovea {
+inline namespace FOVEA_ISA {
 
 // ---- Interface --------------------------------------------------------------------
 
@@ -65,28 +67,28 @@ private:
 
     using LabelIndex = RunLabel;
     static constexpr LabelIndex none = no_label;
+    static constexpr std::int16_t freed = -2;
 
     struct Label {
         Accumulated moments;
         Point first;
-        std::int16_t left = 0, right = 0, bottom = 0;
-        std::int16_t seen_row = -1;  ///< the last row it has a run in
-        LabelIndex link = none;      ///< itself, or the label it was merged into, or the next free one
-        LabelIndex outer = none;     ///< of ground: the region on its left
+        std::int16_t left = 0, right = 0;
+        std::int16_t bottom = -1;  ///< the last row it has a run in
+        LabelIndex link = none;    ///< itself, or the label it was merged into, or the next free one
+        LabelIndex outer = none;   ///< of ground: the region on its left
         std::uint16_t hole_count = 0;
         std::int64_t hole_area = 0;
         detail::HoleChain holes;
-        bool used = false;
         bool is_region = false;
         bool at_border = false;
     };
-    bool label_run(int index, int& above_from);
+    bool label_runs(bool regions);
+    void add_runs(bool regions);
     LabelIndex new_label(bool is_region, Point first);
     LabelIndex find(LabelIndex label);
     LabelIndex merge(LabelIndex a, LabelIndex b);
-    void add_to_label(int index, int end);
-    void settle_row();
     void close_labels();
+    void close_labels_of(bool regions);
     void close_region(const Label& label);
     void close_hole(const Label& hole);
     void free_label(LabelIndex label);
@@ -99,6 +101,7 @@ private:
     RunRow here_;
     Span<Label> labels_;
     LabelIndex free_ = none;
+    int used_labels_ = 0;  ///< the others have never been
     detail::ComponentLists<Accumulated> lists_;
     Status status_ = Status::ok;  ///< what stopped the work
     bool merged_ = false;         ///< labels of this row
@@ -146,12 +149,11 @@ ConnectedComponentsOf<Accumulated>::ConnectedComponentsOf(int width, const Compo
         status_ = Status::scratch_too_small;
     } else {
         Arena arena(scratch);
-        above_ = RunRow(arena.take<Run>(width + 1));
-        here_ = RunRow(arena.take<Run>(width + 1));
+        above_ = RunRow(arena.take_unset<Run>(width + 1));
+        here_ = RunRow(arena.take_unset<Run>(width + 1));
         const auto room = (arena.rest().size() - static_cast<std::ptrdiff_t>(alignof(Label)) + 1) /
                           static_cast<std::ptrdiff_t>(sizeof(Label));
-        labels_ = arena.take<Label>(minimum<std::ptrdiff_t>(room, 2 * width + 2));
-        for (std::ptrdiff_t i = labels_.size() - 1; i >= 0; --i) free_label(static_cast<LabelIndex>(i));
+        labels_ = arena.take_unset<Label>(minimum<std::ptrdiff_t>(room, 2 * width + 2));
         lists_.clear();
     }
 }
@@ -170,50 +172,76 @@ Status ConnectedComponentsOf<Accumulated>::add_row(const std::uint8_t* row) {
     if (here_.split(row, width_) != Status::ok) return fail(Status::scratch_too_small);
     seen_labels_ = 0;
     merged_ = false;
-    int above_from = 0;
-    const int step = options_.find_holes ? 1 : 2;
-    for (int i = options_.find_holes || here_.is_region(0) ? 0 : 1; i < here_.count(); i += step)
-        if (!label_run(i, above_from)) return fail(Status::scratch_too_small);
-    if (merged_) settle_row();
+    if (!label_runs(true)) return fail(Status::scratch_too_small);
+    if (options_.find_holes && !label_runs(false)) return fail(Status::scratch_too_small);
+    add_runs(true);
+    if (options_.find_holes) add_runs(false);
     if (merged_ || seen_labels_ < open_labels_) close_labels();
     swap_values(above_, here_);
     ++y_;
     return Status::ok;
 }
 
-/// Gives a run the label of the runs above that it touches, merging them, or a new one.
+/// Gives the runs of regions, or those of the ground, the labels of the runs above that they touch, merging
+/// these, or new ones. False if there is no label left.
 template <class Accumulated>
-bool ConnectedComponentsOf<Accumulated>::label_run(int index, int& above_from) {
-    Run& run = here_[index];
-    const int first = run.first;
-    const int end = here_.end(index);
-    const bool region = here_.is_region(index);
-    const int reach = region == (options_.connectivity == Connectivity::eight) ? 1 : 0;
-    while (above_from < above_.count() && above_.end(above_from) + 1 <= first) ++above_from;
-    // Regions and ground take turns.
-    int k = above_from;
-    if (k < above_.count() && (above_.is_region(k) != region || above_.end(k) + reach <= first))
-        k += above_.is_region(k) != region ? 1 : 2;
-    LabelIndex label = none;
-    for (; k < above_.count() && above_[k].first < end + reach; k += 2) {
-        const LabelIndex touched = find(above_[k].label);
-        label = label == none ? touched : merge(label, touched);
+bool ConnectedComponentsOf<Accumulated>::label_runs(bool regions) {
+    const RunRow above = above_;
+    const RunRow here = here_;
+    const int reach = regions == (options_.connectivity == Connectivity::eight) ? 1 : 0;
+    // Of the runs above, the first that may touch the next run here.
+    int touched = above.first_of(regions);
+    for (int i = here.first_of(regions); i < here.count(); i += 2) {
+        const int first = here[i].first - reach;
+        const int end = here.end(i) + reach;
+        while (touched < above.count() && above.end(touched) <= first) touched += 2;
+        LabelIndex label = none;
+        if (touched < above.count() && above[touched].first < end) {
+            label = find(above[touched].label);
+            for (; touched + 2 < above.count() && above[touched + 2].first < end; touched += 2)
+                label = merge(label, find(above[touched + 2].label));
+        } else {
+            label = new_label(regions, {here[i].first, y_});
+            if (label == none) return false;
+        }
+        here[i].label = label;
     }
-    if (label == none) label = new_label(region, {first, y_});
-    if (label == none) return false;
-    run.label = label;
-    add_to_label(index, end);
     return true;
+}
+
+/// Adds the runs of regions, or those of the ground, to their labels, which become final. The leftmost run of
+/// a piece of ground has the region around it, if it is a hole, on its left.
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::add_runs(bool regions) {
+    const RunRow here = here_;
+    for (int i = here.first_of(regions); i < here.count(); i += 2) {
+        if (merged_) here[i].label = find(here[i].label);
+        const int first = here[i].first;
+        const int end = here.end(i);
+        Label& label = labels_[here[i].label];
+        label.left = minimum(label.left, static_cast<std::int16_t>(first));
+        label.right = maximum(label.right, static_cast<std::int16_t>(end - 1));
+        label.at_border = label.at_border || y_ == 0 || first == 0 || end == width_;
+        // Ground at the border is never a hole, so nobody asks for its moments.
+        if (regions || !label.at_border) label.moments.add_run(first, end, y_);
+        if (label.bottom == y_) continue;
+        label.bottom = static_cast<std::int16_t>(y_);
+        ++seen_labels_;
+        if (!regions && i > 0) label.outer = here[i - 1].label;
+    }
 }
 
 template <class Accumulated>
 auto ConnectedComponentsOf<Accumulated>::new_label(bool is_region, Point first) -> LabelIndex {
-    const LabelIndex label = free_;
-    if (label == none) return none;
-    free_ = labels_[label].link;
+    LabelIndex label = free_;
+    if (label != none)
+        free_ = labels_[label].link;
+    else if (used_labels_ < labels_.size())
+        label = static_cast<LabelIndex>(used_labels_++);
+    else
+        return none;
     Label fresh;
     fresh.link = label;
-    fresh.used = true;
     fresh.is_region = is_region;
     fresh.first = first;
     fresh.left = fresh.right = static_cast<std::int16_t>(first.x);
@@ -254,64 +282,35 @@ auto ConnectedComponentsOf<Accumulated>::merge(LabelIndex a, LabelIndex b) -> La
     return a;
 }
 
-/// Adds a run to its label, and tells a piece of ground which region is on its left: at its leftmost run that
-/// is the region around it, if it is a hole.
-template <class Accumulated>
-void ConnectedComponentsOf<Accumulated>::add_to_label(int index, int end) {
-    const int first = here_[index].first;
-    Label& label = labels_[here_[index].label];
-    label.left = minimum(label.left, static_cast<std::int16_t>(first));
-    label.right = maximum(label.right, static_cast<std::int16_t>(end - 1));
-    label.bottom = static_cast<std::int16_t>(y_);
-    label.at_border = label.at_border || y_ == 0 || first == 0 || end == width_;
-    // Ground at the border is never a hole, so nobody asks for its moments.
-    if (label.is_region || !label.at_border) label.moments.add_run(first, end, y_);
-    if (label.seen_row == y_) return;
-    label.seen_row = static_cast<std::int16_t>(y_);
-    ++seen_labels_;
-    if (!label.is_region && index > 0) label.outer = here_[index - 1].label;
-}
-
-/// After labels were merged: makes the labels of this row final, and what is on the left of the ground, whose
-/// leftmost run comes last.
-template <class Accumulated>
-void ConnectedComponentsOf<Accumulated>::settle_row() {
-    for (int i = here_.count() - 1; i >= 0; --i) {
-        Run& run = here_[i];
-        if (run.label == none) continue;
-        run.label = find(run.label);
-        Label& label = labels_[run.label];
-        label.seen_row = static_cast<std::int16_t>(y_);
-        if (!label.is_region && i > 0) label.outer = find(here_[i - 1].label);
-    }
-}
-
-/// Lists what has no run in this row, then frees those labels and the ones that were merged.
+/// Lists what has no run in this row and frees its labels, and those that were merged into others. Holes go
+/// first: they look for their regions.
 template <class Accumulated>
 void ConnectedComponentsOf<Accumulated>::close_labels() {
-    for (int i = 0; i < above_.count(); ++i) {
+    if (options_.find_holes) close_labels_of(false);
+    close_labels_of(true);
+}
+
+template <class Accumulated>
+void ConnectedComponentsOf<Accumulated>::close_labels_of(bool regions) {
+    for (int i = above_.first_of(regions); i < above_.count(); i += 2) {
         const LabelIndex index = above_[i].label;
-        if (index == none) continue;
         Label& label = labels_[index];
-        if (label.link != index || label.seen_row == y_ || label.bottom < 0) continue;
-        if (label.is_region)
-            close_region(label);
-        else if (!label.at_border && label.moments.area() >= options_.hole_area_min)
-            close_hole(label);
-        label.bottom = -1;
-        --open_labels_;
-    }
-    for (int i = 0; i < above_.count(); ++i) {
-        const LabelIndex index = above_[i].label;
-        if (index == none) continue;
-        const Label& label = labels_[index];
-        if (label.used && (label.link != index || label.seen_row != y_)) free_label(index);
+        if (label.bottom == y_ && label.link == index) continue;
+        if (label.bottom == freed) continue;  // By another run of the same label.
+        if (label.link == index) {
+            if (regions)
+                close_region(label);
+            else if (!label.at_border && label.moments.area() >= options_.hole_area_min)
+                close_hole(label);
+            --open_labels_;
+        }
+        free_label(index);
     }
 }
 
 template <class Accumulated>
 void ConnectedComponentsOf<Accumulated>::free_label(LabelIndex label) {
-    labels_[label].used = false;
+    labels_[label].bottom = freed;
     labels_[label].link = free_;
     free_ = label;
 }
@@ -322,7 +321,7 @@ void ConnectedComponentsOf<Accumulated>::close_hole(const Label& hole) {
     Label& region = labels_[find(hole.outer)];
     ++region.hole_count;
     region.hole_area += hole.moments.area();
-    lists_.add_hole({hole.moments, box, hole.first, 0}, region.holes, labels_);
+    lists_.add_hole({hole.moments, box, hole.first, 0}, region.holes, labels_.first(used_labels_));
 }
 
 template <class Accumulated>
@@ -367,4 +366,5 @@ Status connected_components(ImageView<const std::uint8_t> binary, const Componen
     return components.finish();
 }
 
+}  // namespace FOVEA_ISA
 }  // namespace fovea

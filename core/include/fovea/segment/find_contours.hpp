@@ -16,6 +16,7 @@
 #include <fovea/segment/contour.hpp>
 #include <fovea/segment/region.hpp>
 #include <fovea/segment/runs.hpp>
+#include <fovea/simd/isa.hpp>
 
 namespace fovea {
 
@@ -25,6 +26,8 @@ namespace fovea {
 constexpr std::int64_t find_contours_scratch(Size size) {
     return size.area() + arena_bytes<Run>(std::int64_t{size.width} + 1);
 }
+
+inline namespace FOVEA_ISA {
 
 /// The contours of all regions and holes. It does not say which hole lies in which region: where that is
 /// asked for, or areas are, take connected_components() and trace_contours().
@@ -41,6 +44,8 @@ constexpr std::int64_t find_contours_scratch(Size size) {
 inline Status find_contours(ImageView<const std::uint8_t> binary, Connectivity connectivity,
                             ContourPoints wanted, Span<std::uint8_t> scratch, ListView<Point> points,
                             ListView<Contour> contours);
+
+}  // namespace FOVEA_ISA
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -71,6 +76,8 @@ private:
 
 }  // namespace detail
 
+inline namespace FOVEA_ISA {
+
 inline Status find_contours(ImageView<const std::uint8_t> binary, Connectivity connectivity,
                             ContourPoints wanted, Span<std::uint8_t> scratch, ListView<Point> points,
                             ListView<Contour> contours) {
@@ -80,7 +87,7 @@ inline Status find_contours(ImageView<const std::uint8_t> binary, Connectivity c
     const auto pixels = static_cast<std::ptrdiff_t>(binary.size().area());
     detail::SideMarks marks(scratch.data(), binary.size());
     Arena arena(scratch.from(pixels));
-    RunRow runs(arena.take<Run>(binary.width() + 1));
+    RunRow runs(arena.take_unset<Run>(binary.width() + 1));
     points.clear();
     contours.clear();
     detail::ContourWriter writer(points, wanted);
@@ -101,7 +108,7 @@ inline Status find_contours(ImageView<const std::uint8_t> binary, Connectivity c
     };
     for (int y = 0; y < binary.height(); ++y) {
         static_cast<void>(runs.split(binary.row(y), binary.width()));
-        for (int i = runs.is_region(0) ? 0 : 1; i < runs.count(); i += 2) {
+        for (int i = runs.first_of(true); i < runs.count(); i += 2) {
             const int first = runs[i].first;
             const int last = runs.end(i) - 1;
             // A side that no walk has passed begins a border: a left one that of a region, as no pixel of it
@@ -115,4 +122,5 @@ inline Status find_contours(ImageView<const std::uint8_t> binary, Connectivity c
     return Status::ok;
 }
 
+}  // namespace FOVEA_ISA
 }  // namespace fovea

@@ -16,6 +16,7 @@
 #include <fovea/number/integer.hpp>
 #include <fovea/segment/region.hpp>
 #include <fovea/segment/runs.hpp>
+#include <fovea/simd/isa.hpp>
 
 namespace fovea {
 
@@ -35,6 +36,8 @@ constexpr std::int64_t label_image_scratch(Size size) {
         size, static_cast<int>(minimum<std::int64_t>((size.area() + 1) / 2, max_image_labels)));
 }
 
+inline namespace FOVEA_ISA {
+
 /// Numbers the regions of a binary image from 1 on, by their first pixels row by row, as
 /// connected_components() lists them; the ground is 0. Answers how many there are.
 ///
@@ -46,6 +49,8 @@ constexpr std::int64_t label_image_scratch(Size size) {
 /// Source   book sec. 2.8.3; runs and union-find after Rosenfeld and Pfaltz, JACM 13(4), 1966
 inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity connectivity,
                                Span<std::uint8_t> scratch, ImageView<Label16> dst);
+
+}  // namespace FOVEA_ISA
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -85,6 +90,29 @@ private:
     std::ptrdiff_t count_ = 0;
 };
 
+/// Gives every run of a region the label of the runs above that it touches, or a new one. False if there is
+/// none left.
+inline bool label_runs(RunRow above, RunRow here, Connectivity connectivity, LabelTable& table) {
+    const int reach = connectivity == Connectivity::eight ? 1 : 0;
+    int touched = above.first_of(true);
+    for (int i = here.first_of(true); i < here.count(); i += 2) {
+        const int first = here[i].first - reach;
+        const int end = here.end(i) + reach;
+        while (touched < above.count() && above.end(touched) <= first) touched += 2;
+        Label16 label = 0;
+        if (touched < above.count() && above[touched].first < end) {
+            label = table.find(above[touched].label);
+            for (; touched + 2 < above.count() && above[touched + 2].first < end; touched += 2)
+                label = table.merge(label, above[touched + 2].label);
+        } else {
+            label = table.add();
+            if (label == no_label) return false;
+        }
+        here[i].label = label;
+    }
+    return true;
+}
+
 /// Writes first to end - 1, and perhaps some pixels behind them, which are written later.
 inline void write_label(int first, int end, int width, Label16 label, Label16* out) {
     constexpr int step = 8;
@@ -97,6 +125,8 @@ inline void write_label(int first, int end, int width, Label16 label, Label16* o
 
 }  // namespace detail
 
+inline namespace FOVEA_ISA {
+
 inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity connectivity,
                                Span<std::uint8_t> scratch, ImageView<Label16> dst) {
     if (src.empty()) return Status::empty_image;
@@ -104,37 +134,19 @@ inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity c
     if (src.width() > max_image_side || src.height() > max_image_side) return Status::image_too_large;
     if (scratch.size() < label_image_scratch(src.size(), 1)) return Status::scratch_too_small;
     const int width = src.width();
-    const int reach = connectivity == Connectivity::eight ? 1 : 0;
     Arena arena(scratch);
-    RunRow above(arena.take<Run>(width + 1));
-    RunRow here(arena.take<Run>(width + 1));
+    RunRow above(arena.take_unset<Run>(width + 1));
+    RunRow here(arena.take_unset<Run>(width + 1));
     const auto room = (arena.rest().size() - static_cast<std::ptrdiff_t>(alignof(Label16)) + 1) /
                       static_cast<std::ptrdiff_t>(sizeof(Label16));
-    detail::LabelTable table(arena.take<Label16>(minimum<std::ptrdiff_t>(room, max_image_labels + 1)));
+    detail::LabelTable table(arena.take_unset<Label16>(minimum<std::ptrdiff_t>(room, max_image_labels + 1)));
 
     for (int y = 0; y < src.height(); ++y) {
         static_cast<void>(here.split(src.row(y), width));
+        if (!detail::label_runs(above, here, connectivity, table)) return Status::capacity_exceeded;
+        // The first pixel of a run remembers its piece until all are known.
         Label16* out = dst.row(y);
-        int k = 0;
-        for (int i = 0; i < here.count(); ++i) {
-            Run& run = here[i];
-            const int end = here.end(i);
-            Label16 label = 0;
-            if (here.is_region(i)) {
-                label = no_label;
-                while (k < above.count() && above.end(k) + reach <= run.first) ++k;
-                // Regions and ground take turns.
-                int n = k < above.count() && !above.is_region(k) ? k + 1 : k;
-                for (; n < above.count() && above[n].first < end + reach; n += 2)
-                    label =
-                        label == no_label ? table.find(above[n].label) : table.merge(label, above[n].label);
-                if (label == no_label) label = table.add();
-                if (label == no_label) return Status::capacity_exceeded;
-            }
-            // The first pixel of a run remembers its piece until all are known.
-            run.label = label;
-            out[run.first] = label;
-        }
+        for (int i = here.first_of(true); i < here.count(); i += 2) out[here[i].first] = here[i].label;
         swap_values(above, here);
     }
     const int regions = table.number();
@@ -149,4 +161,5 @@ inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity c
     return regions;
 }
 
+}  // namespace FOVEA_ISA
 }  // namespace fovea

@@ -10,8 +10,18 @@
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/simd/bits.hpp>
+#include <fovea/simd/isa.hpp>
+#include <fovea/simd/lanes.hpp>
 
 namespace fovea {
+
+namespace detail {
+
+/// As many pixels as the processor reads at once, and as many bits.
+using PixelWord = std::conditional_t<(sizeof(void*) >= 8), std::uint64_t, std::uint32_t>;
+
+}  // namespace detail
 
 // ---- Interface --------------------------------------------------------------------
 
@@ -24,6 +34,8 @@ struct Run {
     RunLabel label = no_label;
 };
 
+inline namespace FOVEA_ISA {
+
 /// The runs of one row, region and ground in turn. Holds no memory of its own.
 class RunRow {
 public:
@@ -32,27 +44,32 @@ public:
 
     /// Cuts a row of width pixels (1..65535) into runs: zero is ground, all else region.
     ///
-    /// Errors  capacity_exceeded if there are more runs than room; width + 1 is always enough
+    /// Errors  capacity_exceeded if there is no room for the runs and one more; width + 1 is always enough
     Status split(const std::uint8_t* row, int width);
 
     int count() const { return count_; }
     Run& operator[](int index) const { return runs_[index]; }
     bool is_region(int index) const { return (index % 2 == 0) == starts_with_region_; }
-    int end(int index) const { return index + 1 < count_ ? runs_[index + 1].first : width_; }
+    /// The first run of a region, or of the ground; it may be count(). The others are every second behind.
+    int first_of(bool regions) const { return starts_with_region_ == regions ? 0 : 1; }
+    int end(int index) const { return runs_[index + 1].first; }
 
 private:
+    /// Behind the last run stands where it ends.
+    Status close(int width);
+    bool add_changes(detail::PixelWord changes, int x);
+
     Span<Run> runs_;
     int count_ = 0;
-    int width_ = 0;
     bool starts_with_region_ = false;
 };
+
+}  // namespace FOVEA_ISA
 
 // ---- Implementation ---------------------------------------------------------------
 
 namespace detail {
 
-/// As many pixels as the processor reads at once.
-using PixelWord = std::conditional_t<(sizeof(void*) >= 8), std::uint64_t, std::uint32_t>;
 inline constexpr int word_pixels = sizeof(PixelWord);
 
 inline constexpr PixelWord low_bits = static_cast<PixelWord>(0x7f7f7f7f7f7f7f7f);
@@ -89,56 +106,82 @@ inline int pixels_alike(const std::uint8_t* first, bool region) {
     return other == 0 ? word_pixels : first_pixel_of(other);
 }
 
-/// The pixels of a word that differ from the one before them, as their top bits; before is what stands before
-/// the first, and becomes what the last one is.
-inline PixelWord pixels_changed(const std::uint8_t* first, bool& before) {
-    constexpr int last = 8 * (word_pixels - 1);
-    const PixelWord set = pixels_set(load_pixels(first));
-    const PixelWord edge = before ? 0x80 : 0;
-    if constexpr (first_pixel_is_lowest) {
-        before = set >> (last + 7) != 0;
-        return set ^ (set << 8 | edge);
-    }
-    before = (set & 0x80) != 0;
-    return set ^ (set >> 8 | edge << last);
+/// How many pixels fit a word at one bit each, the first pixel at the lowest.
+inline constexpr int bits_pixels = 8 * word_pixels;
+
+inline namespace FOVEA_ISA {
+
+/// Which of bits_pixels pixels are not zero.
+[[gnu::always_inline]] inline PixelWord bits_of_pixels(const std::uint8_t* first) {
+    PixelWord bits = simd::bits_at_least(first, 1);
+    if constexpr (bits_pixels == 64) bits |= std::uint64_t{simd::bits_at_least(first + 32, 1)} << 32;
+    return bits;
 }
+/// The same for fewer, 1 or more, the last ones of a row of width; no bits behind them.
+inline PixelWord bits_of_last(const std::uint8_t* row, int width, int count) {
+    if (width >= bits_pixels) return bits_of_pixels(row + width - bits_pixels) >> (bits_pixels - count);
+    std::uint8_t block[bits_pixels] = {};
+    std::memcpy(block, row, static_cast<std::size_t>(width));
+    return bits_of_pixels(block);
+}
+/// True if bits_pixels pixels are seen at a glance to be like those before them. Narrow vectors take longer
+/// for their bits than words for this question; wide ones do not.
+[[gnu::always_inline]] inline bool plainly_alike(const std::uint8_t* first, PixelWord before) {
+    if constexpr (simd::lanes > 8) return false;
+    for (int x = 0; x < bits_pixels; x += 4 * word_pixels)
+        if (!block_alike(first + x, before != 0)) return false;
+    return true;
+}
+
+}  // namespace FOVEA_ISA
 
 }  // namespace detail
 
+inline namespace FOVEA_ISA {
+
 inline Status RunRow::split(const std::uint8_t* row, int width) {
-    using detail::word_pixels;
+    using namespace detail;
     count_ = 0;
-    width_ = width;
     starts_with_region_ = row[0] != 0;
     if (runs_.empty()) return Status::capacity_exceeded;
     runs_[count_++] = {0, no_label};
-    bool region = starts_with_region_;
-    bool calm = true;
+    PixelWord before = starts_with_region_ ? 1 : 0;
     int x = 0;
-    while (x + word_pixels <= width) {
-        if (calm && x + 4 * word_pixels <= width && detail::block_alike(row + x, region)) {
-            x += 4 * word_pixels;
-            continue;
-        }
-        detail::PixelWord changed = detail::pixels_changed(row + x, region);
-        calm = changed == 0;
-        while (changed != 0) {
-            if (count_ >= runs_.size()) return Status::capacity_exceeded;
-            const int place = detail::first_pixel_of(changed);
-            runs_[count_++] = {static_cast<std::uint16_t>(x + place), no_label};
-            changed &= detail::first_pixel_is_lowest
-                           ? changed - 1
-                           : ~(detail::PixelWord{0x80} << (8 * (word_pixels - 1 - place)));
-        }
-        x += word_pixels;
+    for (; x + bits_pixels <= width; x += bits_pixels) {
+        if (plainly_alike(row + x, before)) continue;
+        const PixelWord bits = bits_of_pixels(row + x);
+        if (!add_changes(bits ^ (bits << 1 | before), x)) return Status::capacity_exceeded;
+        before = bits >> (bits_pixels - 1);
     }
-    for (; x < width; ++x) {
-        if ((row[x] != 0) == region) continue;
-        if (count_ >= runs_.size()) return Status::capacity_exceeded;
-        runs_[count_++] = {static_cast<std::uint16_t>(x), no_label};
-        region = !region;
-    }
+    if (x == width) return close(width);
+    const PixelWord bits = bits_of_last(row, width, width - x);
+    const PixelWord inside = (PixelWord{1} << (width - x)) - 1;
+    if (!add_changes((bits ^ (bits << 1 | before)) & inside, x)) return Status::capacity_exceeded;
+    return close(width);
+}
+
+inline Status RunRow::close(int width) {
+    if (count_ >= runs_.size()) return Status::capacity_exceeded;
+    runs_[count_] = {static_cast<std::uint16_t>(width), no_label};
     return Status::ok;
 }
 
+/// Begins a run at every pixel from x on whose bit is set. False if there was no room.
+inline bool RunRow::add_changes(detail::PixelWord changes, int x) {
+    if (runs_.size() - count_ >= detail::bits_pixels) {
+        // No question of room for each.
+        Run* next = runs_.data() + count_;
+        for (; changes != 0; changes &= changes - 1)
+            *next++ = {static_cast<std::uint16_t>(x + trailing_zeros(changes)), no_label};
+        count_ = static_cast<int>(next - runs_.data());
+        return true;
+    }
+    for (; changes != 0; changes &= changes - 1) {
+        if (count_ >= runs_.size()) return false;
+        runs_[count_++] = {static_cast<std::uint16_t>(x + trailing_zeros(changes)), no_label};
+    }
+    return true;
+}
+
+}  // namespace FOVEA_ISA
 }  // namespace fovea
