@@ -11,39 +11,25 @@
 namespace fovea::test {
 namespace {
 
-constexpr int rows = simd::integral_rows_a_step;
-
-TEST(Prefix, AddsUpRowsOfBytesOnWhatIsAbove) {
+TEST(Prefix, AddsUpARowOfBytesOnWhatIsAbove) {
     Random random(651);
-    for (int count = 0; count <= 120; ++count) {
-        const auto n = static_cast<std::size_t>(count);
-        std::vector<std::vector<std::uint8_t>> src(rows, std::vector<std::uint8_t>(n));
-        std::vector<std::vector<std::uint32_t>> dst(rows, std::vector<std::uint32_t>(n));
-        // Close to 2^32, so that some sums begin again at 0.
-        std::vector<std::uint32_t> above(n);
-        for (std::uint32_t& sum : above) sum = 0xffffff00u + random.below(512);
-        std::vector<std::uint32_t> expected = above;
-        const std::uint8_t* from[rows];
-        std::uint32_t* to[rows];
-        std::vector<std::vector<std::uint32_t>> all;
-        for (int r = 0; r < rows; ++r) {
-            auto& row = src[static_cast<std::size_t>(r)];
+    for (std::size_t count = 0; count <= 120; ++count)
+        for (const bool bright : {false, true}) {
+            std::vector<std::uint8_t> src(count);
+            std::vector<std::uint32_t> above(count);
+            std::vector<std::uint32_t> expected;
             std::uint32_t sum = 0;
-            for (std::size_t x = 0; x < n; ++x) {
-                row[x] = static_cast<std::uint8_t>(r == 0 ? 255 : random.next() >> 11);
-                sum += row[x];
-                expected[x] += sum;
+            for (std::size_t x = 0; x < count; ++x) {
+                src[x] = static_cast<std::uint8_t>(bright ? 255 : random.next() >> 11);
+                // Close to 2^32, so that some sums begin again at 0.
+                above[x] = 0xffffff00u + random.below(512);
+                sum += src[x];
+                expected.push_back(above[x] + sum);
             }
-            all.push_back(expected);
-            from[r] = row.data();
-            to[r] = dst[static_cast<std::size_t>(r)].data();
+            std::vector<std::uint32_t> dst(count);
+            simd::integral_row(src.data(), static_cast<int>(count), above.data(), dst.data());
+            ASSERT_EQ(dst, expected) << count;
         }
-        simd::integral_rows(from, count, above.data(), to);
-        ASSERT_EQ(dst, all) << count;
-        std::vector<std::uint32_t> one(n);
-        simd::integral_row(src[0].data(), count, above.data(), one.data());
-        ASSERT_EQ(one, all[0]) << count;
-    }
 }
 
 TEST(Prefix, AddsUpARowOfWords) {

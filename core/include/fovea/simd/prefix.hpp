@@ -20,13 +20,6 @@ namespace fovea {
 inline namespace FOVEA_ISA {
 namespace simd {
 
-/// Rows that integral_rows() takes at once.
-#if FOVEA_BYTES >= 32 && defined(__AVX2__)
-inline constexpr int integral_rows_a_step = 8;
-#else
-inline constexpr int integral_rows_a_step = 1;
-#endif
-
 #if FOVEA_BYTES >= 16 && defined(__SSE2__)
 
 /// The prefix sums of eight words, each below 2^16.
@@ -62,11 +55,38 @@ inline constexpr int integral_rows_a_step = 1;
 
 #endif
 
+#if FOVEA_BYTES >= 32 && defined(__AVX2__)
+
+[[gnu::always_inline]] inline void add_above(const std::uint32_t* above, __m256i sums, std::uint32_t* to) {
+    const __m256i over = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(above));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_add_epi32(over, sums));
+}
+
+#endif
+
 /// dst[x] = above[x] + src[0] + ... + src[x], modulo 2^32.
 inline void integral_row(const std::uint8_t* src, int count, const std::uint32_t* above, std::uint32_t* dst) {
     int x = 0;
     std::uint32_t sum = 0;
-#if FOVEA_BYTES >= 16 && defined(__SSE2__)
+#if FOVEA_BYTES >= 32 && defined(__AVX2__)
+    const __m256i last = _mm256_set1_epi32(7);
+    __m256i carry = _mm256_setzero_si256();
+    for (; x + 16 <= count; x += 16) {
+        __m256i words = _mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(src + x)));
+        words = _mm256_add_epi16(words, _mm256_slli_si256(words, 2));
+        words = _mm256_add_epi16(words, _mm256_slli_si256(words, 4));
+        words = _mm256_add_epi16(words, _mm256_slli_si256(words, 8));
+        const __m256i low = _mm256_cvtepu16_epi32(_mm256_castsi256_si128(words));
+        const __m256i high = _mm256_cvtepu16_epi32(_mm256_extracti128_si256(words, 1));
+        // What goes on to the right waits for one sum alone.
+        const __m256i all_low = _mm256_permutevar8x32_epi32(low, last);
+        const __m256i all = _mm256_add_epi32(all_low, _mm256_permutevar8x32_epi32(high, last));
+        add_above(above + x, _mm256_add_epi32(low, carry), dst + x);
+        add_above(above + x + 8, _mm256_add_epi32(high, _mm256_add_epi32(carry, all_low)), dst + x + 8);
+        carry = _mm256_add_epi32(carry, all);
+    }
+    sum = static_cast<std::uint32_t>(_mm256_cvtsi256_si32(carry));
+#elif FOVEA_BYTES >= 16 && defined(__SSE2__)
     const __m128i zero = _mm_setzero_si128();
     __m128i carry = zero;
     for (; x + 8 <= count; x += 8) {
@@ -95,63 +115,6 @@ inline void integral_row(const std::uint8_t* src, int count, const std::uint32_t
         sum += src[x];
         dst[x] = above[x] + sum;
     }
-}
-
-/// The integral rows of integral_rows_a_step rows, one below the other: what is above the first is at above.
-inline void integral_rows(const std::uint8_t* const* src, int count, const std::uint32_t* above,
-                          std::uint32_t* const* dst) {
-    constexpr int rows = integral_rows_a_step;
-#if FOVEA_BYTES >= 32 && defined(__AVX2__)
-    // Each half of a vector holds a row, so that the sum to the left is carried on within the half. Four
-    // bytes make four sums by products with 0 and 1. Below 16 columns at a time all rows are done, so that
-    // what is above them is read once.
-    constexpr int pairs = rows / 2;
-    const __m256i which =
-        _mm256_broadcastsi128_si256(_mm_setr_epi8(1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 1, 0, 1, 1, 1, 1));
-    const __m256i one = _mm256_set1_epi16(1);
-    const auto sums_of = [&](__m256i groups) {
-        return _mm256_madd_epi16(_mm256_maddubs_epi16(groups, which), one);
-    };
-    __m256i carry[pairs];
-    for (__m256i& c : carry) c = _mm256_setzero_si256();
-    int x = 0;
-    for (; x + 16 <= count; x += 16) {
-        __m256i bytes[pairs];
-        for (int p = 0; p < pairs; ++p)
-            bytes[p] = _mm256_inserti128_si256(_mm256_castsi128_si256(load_sums(src[2 * p] + x)),
-                                               load_sums(src[2 * p + 1] + x), 1);
-        const auto eight_columns = [&](int at, auto first, auto second) {
-            __m256i sums = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(above + at));
-#pragma GCC unroll 4
-            for (int p = 0; p < pairs; ++p) {
-                const __m256i low = _mm256_add_epi32(sums_of(first(bytes[p])), carry[p]);
-                const __m256i high =
-                    _mm256_add_epi32(sums_of(second(bytes[p])), _mm256_shuffle_epi32(low, 0xff));
-                carry[p] = _mm256_shuffle_epi32(high, 0xff);
-                sums = _mm256_add_epi32(sums, _mm256_permute2x128_si256(low, high, 0x20));
-                _mm256_storeu_si256(reinterpret_cast<__m256i*>(dst[2 * p] + at), sums);
-                sums = _mm256_add_epi32(sums, _mm256_permute2x128_si256(low, high, 0x31));
-                _mm256_storeu_si256(reinterpret_cast<__m256i*>(dst[2 * p + 1] + at), sums);
-            }
-        };
-        eight_columns(
-            x, [](__m256i row) { return _mm256_shuffle_epi32(row, 0x00); },
-            [](__m256i row) { return _mm256_shuffle_epi32(row, 0x55); });
-        eight_columns(
-            x + 8, [](__m256i row) { return _mm256_shuffle_epi32(row, 0xaa); },
-            [](__m256i row) { return _mm256_shuffle_epi32(row, 0xff); });
-    }
-    for (int r = 0; r < rows; ++r) {
-        const std::uint32_t* over = r == 0 ? above : dst[r - 1];
-        std::uint32_t sum = x == 0 ? 0 : dst[r][x - 1] - over[x - 1];
-        for (int i = x; i < count; ++i) {
-            sum += src[r][i];
-            dst[r][i] = over[i] + sum;
-        }
-    }
-#else
-    for (int r = 0; r < rows; ++r) integral_row(src[r], count, r == 0 ? above : dst[r - 1], dst[r]);
-#endif
 }
 
 /// dst[x] = src[0] + ... + src[x], modulo 2^32.

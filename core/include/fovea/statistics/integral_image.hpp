@@ -104,22 +104,11 @@ Result<Sum> checked_rectangle_sum(ImageView<const Sum> integral, Rectangle area)
 inline namespace FOVEA_ISA {
 
 inline Status integral_image(ImageView<const Gray8> src, ImageView<Sum32> dst) {
-    constexpr int step = simd::integral_rows_a_step;
     if (src.empty()) return Status::empty_image;
     if (dst.size() != integral_size(src.size())) return Status::size_mismatch;
     for (int x = 0; x < dst.width(); ++x) dst(x, 0) = 0;
     for (int y = 1; y < dst.height(); ++y) dst(0, y) = 0;
-    int y = 0;
-    for (; y + step <= src.height(); y += step) {
-        const Gray8* from[step];
-        Sum32* to[step];
-        for (int i = 0; i < step; ++i) {
-            from[i] = src.row(y + i);
-            to[i] = dst.row(y + i + 1) + 1;
-        }
-        simd::integral_rows(from, src.width(), dst.row(y) + 1, to);
-    }
-    for (; y < src.height(); ++y)
+    for (int y = 0; y < src.height(); ++y)
         simd::integral_row(src.row(y), src.width(), dst.row(y) + 1, dst.row(y + 1) + 1);
     return Status::ok;
 }
