@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include <fovea/simd/isa.hpp>
+#include <fovea/simd/unroll.hpp>
 
 #if FOVEA_BYTES >= 16 && defined(__SSSE3__)
 #include <immintrin.h>
@@ -115,29 +116,25 @@ inline void Lookup::row(const std::uint8_t* src, int count, std::uint8_t* dst) c
     for (; i + step <= count; i += step) {
         Vector x[4];
         Vector found[4];
-        for (int k = 0; k < 4; ++k) x[k] = Vector::load(src + i + k * Vector::size);
-        const Vector first = Vector::table(steps_[0]);
-        for (int k = 0; k < 4; ++k) found[k] = x[k].in(first);
-#pragma GCC unroll 8
-        for (int s = 1; s < 8; ++s) {
-            const Vector table = Vector::table(steps_[s]);
-            for (int k = 0; k < 4; ++k) {
-                x[k] = x[k].less(sixteen);
-                found[k] = found[k] ^ x[k].in(table);
+        unroll<4>([&](auto k) { found[k] = Vector::all(0); });
+        for (int half = 0; half < 16; half += 8) {
+            const Vector first = Vector::table(steps_[half]);
+            unroll<4>([&](auto k) {
+                x[k] = Vector::load(src + i + k * Vector::size);
+                if (half > 0) x[k] = x[k] ^ flip;
+                found[k] = found[k] ^ x[k].in(first);
+            });
+            // Written out, GCC would put off the exclusive ors until no register is left.
+#pragma GCC unroll 1
+            for (int s = half + 1; s < half + 8; ++s) {
+                const Vector table = Vector::table(steps_[s]);
+                unroll<4>([&](auto k) {
+                    x[k] = x[k].less(sixteen);
+                    found[k] = found[k] ^ x[k].in(table);
+                });
             }
         }
-        for (int k = 0; k < 4; ++k) x[k] = Vector::load(src + i + k * Vector::size) ^ flip;
-        const Vector upper = Vector::table(steps_[8]);
-        for (int k = 0; k < 4; ++k) found[k] = found[k] ^ x[k].in(upper);
-#pragma GCC unroll 8
-        for (int s = 9; s < 16; ++s) {
-            const Vector table = Vector::table(steps_[s]);
-            for (int k = 0; k < 4; ++k) {
-                x[k] = x[k].less(sixteen);
-                found[k] = found[k] ^ x[k].in(table);
-            }
-        }
-        for (int k = 0; k < 4; ++k) found[k].store(dst + i + k * Vector::size);
+        unroll<4>([&](auto k) { found[k].store(dst + i + k * Vector::size); });
     }
     rest(src + i, count - i, dst + i);
 }
