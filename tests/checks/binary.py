@@ -11,6 +11,7 @@ import re
 import struct
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 # e_machine of the ELF header -> prefix of the binary utilities, and what computes in floats there. Loads, stores and
@@ -65,7 +66,21 @@ class Binary:
         self.relocatable = kind == 1
         prefix, self.float_instruction = MACHINES[machine]
         self.sections, self.symbols, self.instructions, self.references = set(), [], {}, {}
-        command = [prefix + "objdump", "-htdr", "--no-show-raw-insn", str(path)]
+        self.listen(prefix, "-ht", path)
+        with tempfile.TemporaryDirectory() as folder:
+            self.listen(prefix, "-dr", self.in_one_section(prefix, path, Path(folder)) if self.relocatable else path)
+
+    @staticmethod
+    def in_one_section(prefix, path, folder):
+        """The same object with all instructions in one section: where every function has one of its own, objdump
+        looks through all symbols for each address, which takes a hundred times as long."""
+        (folder / "one.ld").write_text("SECTIONS { .text : { *(.text .text.*) } }\n")
+        subprocess.run([prefix + "ld", "-r", "--force-group-allocation", "-T", folder / "one.ld", "-o", folder / "one.o", path],
+                       check=True)
+        return folder / "one.o"
+
+    def listen(self, prefix, what, path):
+        command = [prefix + "objdump", what, "--no-show-raw-insn", str(path)]
         for line in subprocess.run(command, check=True, capture_output=True, text=True).stdout.split("\n"):
             self.read(line)
 
