@@ -133,5 +133,33 @@ TEST(ToLab, TakesEveryPixelOfEverySize) {
     }
 }
 
+TEST(ToRgbOfLab, IsRgbOfForEveryLab) {
+    // Rows of 250 colours, so that vectors start anywhere and the last one is not full.
+    constexpr Size size{250, 1};
+    GuardedImage<Lab888> src(size);
+    GuardedImage<Rgb888> dst(size);
+    for (int colour = 0; colour < 1 << 24; colour += size.width) {
+        for (int x = 0; x < size.width; ++x)
+            src(x, 0) = {static_cast<std::uint8_t>((colour + x) >> 16),
+                         static_cast<std::uint8_t>((colour + x) >> 8), static_cast<std::uint8_t>(colour + x)};
+        ASSERT_EQ(to_rgb(src.view(), dst.view()), Status::ok);
+        for (int x = 0; x < size.width; ++x) ASSERT_EQ(dst(x, 0), rgb_of(src(x, 0))) << colour + x;
+    }
+}
+
+TEST(ToLab, IsLabOfForColoursOfAllKinds) {
+    constexpr Size size{250, 1};
+    GuardedImage<Rgb888> src(size);
+    GuardedImage<Lab888> dst(size);
+    for (int colour = 0; colour < 1 << 24; colour += 7 * size.width) {
+        for (int x = 0; x < size.width; ++x)
+            src(x, 0) = {static_cast<std::uint8_t>((colour + 7 * x) >> 16),
+                         static_cast<std::uint8_t>((colour + 7 * x) >> 8),
+                         static_cast<std::uint8_t>(colour + 7 * x)};
+        ASSERT_EQ(to_lab(src.view(), dst.view()), Status::ok);
+        for (int x = 0; x < size.width; ++x) ASSERT_EQ(dst(x, 0), lab_of(src(x, 0))) << colour + 7 * x;
+    }
+}
+
 }  // namespace
 }  // namespace fovea::test
