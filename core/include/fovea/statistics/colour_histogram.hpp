@@ -109,12 +109,11 @@ private:
     static constexpr FirstBins first_bins{};
     using Table = std::uint32_t[static_cast<std::size_t>(HueBins) * SaturationBins];
 
-    constexpr void count(Hsv888 pixel, Table& table) const {
-        // Added, so that no branch is guessed wrong.
-        const int counts = static_cast<int>(pixel.saturation >= floors_.saturation) &
-                           static_cast<int>(pixel.value >= floors_.value);
-        table[first_bins.of[pixel.hue] + saturation_bin(pixel.saturation)] +=
-            static_cast<std::uint32_t>(counts);
+    constexpr void count(const Hsv888& pixel, Table& table) const {
+        // Added, so that no branch is guessed wrong: 1 where neither is below its floor.
+        const int below = (pixel.saturation - floors_.saturation) | (pixel.value - floors_.value);
+        const auto bin = static_cast<std::size_t>(saturation_bin(pixel.saturation));
+        table[first_bins.of[pixel.hue] + bin] += ~static_cast<std::uint32_t>(below) >> 31;
     }
 
     ColourFloors floors_;
