@@ -97,6 +97,22 @@ TEST(Log2, IsWithinItsBound) {
         ASSERT_NEAR(detail::log2_of(n) / 67108864.0, std::log2(n), 2.0 / 67108864) << n;
 }
 
+TEST(Affine, IsItsTableForScalesAndOffsetsOfAllSizes) {
+    Random random(373);
+    GuardedImage<Gray8> src({256, 1}), dst({256, 1});
+    for (int x = 0; x < 256; ++x) src(x, 0) = static_cast<Gray8>(x);
+    for (int run = 0; run < 20000; ++run) {
+        const int bits = random.between(4, 23);
+        const int most = minimum(max_affine_scale << 16, 1 << bits);
+        const Ratio scale = Ratio::from_raw(random.between(-most, most));
+        const int far = minimum(max_affine_offset << 16, 255 * most);
+        const GrayLevel offset = GrayLevel::from_raw(random.between(-far, far));
+        const LookupTable table = affine_table(scale, offset);
+        ASSERT_EQ(affine(src.view(), scale, offset, dst.view()), Status::ok);
+        for (int x = 0; x < 256; ++x) ASSERT_EQ(dst(x, 0), table[x]) << scale.raw() << ", " << offset.raw();
+    }
+}
+
 TEST(Affine, RefusesWhatItsBoundsExclude) {
     GuardedImage<Gray8> src({4, 4}), dst({4, 4});
     src.fill(Gray8{1});

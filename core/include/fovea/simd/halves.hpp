@@ -62,6 +62,39 @@ inline constexpr int half_lanes = lanes / 2;
 #endif
 }
 
+/// The pixels of a vector as values, in whatever order the processor gets them fastest.
+struct SplitWords {
+    RawWords first;
+    RawWords second;
+};
+[[gnu::always_inline]] inline SplitWords split(Bytes bytes) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    const auto raw = bits_as<__m256i>(bytes.raw);
+    const __m256i zero = _mm256_setzero_si256();
+    return {bits_as<RawWords>(_mm256_unpacklo_epi8(raw, zero)),
+            bits_as<RawWords>(_mm256_unpackhi_epi8(raw, zero))};
+#elif FOVEA_BYTES == 16 && defined(__SSE2__)
+    const auto raw = bits_as<__m128i>(bytes.raw);
+    const __m128i zero = _mm_setzero_si128();
+    return {bits_as<RawWords>(_mm_unpacklo_epi8(raw, zero)), bits_as<RawWords>(_mm_unpackhi_epi8(raw, zero))};
+#else
+    const Words words(bytes);
+    return {words.even, words.odd};
+#endif
+}
+/// Back to pixels: values of -32768 to 32767, held at 0 and 255.
+[[gnu::always_inline]] inline Bytes joined_held(SplitWords words) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    return {bits_as<RawBytes>(
+        _mm256_packus_epi16(bits_as<__m256i>(words.first), bits_as<__m256i>(words.second)))};
+#elif FOVEA_BYTES == 16 && defined(__SSE2__)
+    return {
+        bits_as<RawBytes>(_mm_packus_epi16(bits_as<__m128i>(words.first), bits_as<__m128i>(words.second)))};
+#else
+    return Words(words.first, words.second).held();
+#endif
+}
+
 /// The pixels in reverse order.
 [[gnu::always_inline]] inline Bytes reversed(Bytes bytes) {
 #if FOVEA_BYTES == 32

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include <fovea/base/status.hpp>
@@ -13,6 +14,7 @@
 #include <fovea/number/fixed.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/pixelwise/point_rows.hpp>
+#include <fovea/simd/backend.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
 #include <fovea/simd/sums.hpp>
@@ -102,12 +104,45 @@ constexpr bool has_a_large_side(Size size) {
 inline namespace FOVEA_ISA {
 namespace kernels {
 
+#if FOVEA_BYTES >= 16
+/// Lowers and raises extremes to those of whole vectors of 16 bits in a row, and answers how many pixels they
+/// were. All are compared with a sign, which those without one get by a flipped highest bit.
+template <class Pixel>
+int add_extremes_in_vectors(const Pixel* row, int width, Extremes<Pixel>& extremes) {
+    constexpr int pixels = simd::lanes / 2;
+    constexpr std::uint16_t flip = std::is_signed_v<Pixel> ? 0 : 0x8000;
+    const auto signed_from = [](const Pixel* from) {
+        simd::RawWords words;
+        std::memcpy(&words, from, sizeof words);
+        return simd::bits_as<simd::RawSigned>(words ^ flip);
+    };
+    if (width < pixels) return 0;
+    simd::RawSigned low = signed_from(row);
+    simd::RawSigned high = low;
+    int x = pixels;
+    for (; x + pixels <= width; x += pixels) {
+        const simd::RawSigned values = signed_from(row + x);
+        low = values < low ? values : low;
+        high = values > high ? values : high;
+    }
+    for (int i = 0; i < pixels; ++i) {
+        extremes.lowest = minimum(extremes.lowest, static_cast<Pixel>(low[i] ^ flip));
+        extremes.highest = maximum(extremes.highest, static_cast<Pixel>(high[i] ^ flip));
+    }
+    return x;
+}
+#endif
+
 /// Lowers and raises extremes to those of a row.
 template <class Pixel>
 void add_extremes(const Pixel* row, int width, Extremes<Pixel>& extremes) {
+    int x = 0;
+#if FOVEA_BYTES >= 16
+    if constexpr (sizeof(Pixel) == 2) x = add_extremes_in_vectors(row, width, extremes);
+#endif
     Pixel lowest = extremes.lowest;
     Pixel highest = extremes.highest;
-    for (int x = 0; x < width; ++x) {
+    for (; x < width; ++x) {
         lowest = minimum(lowest, row[x]);
         highest = maximum(highest, row[x]);
     }

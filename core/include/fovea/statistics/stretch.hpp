@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include <fovea/base/arena.hpp>
@@ -13,6 +14,9 @@
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/pixelwise/lookup_table.hpp>
+#include <fovea/pixelwise/point_rows.hpp>
+#include <fovea/simd/backend.hpp>
+#include <fovea/simd/halves.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/statistics/reductions.hpp>
@@ -83,6 +87,68 @@ inline Status histogram_stretching(ImageView<const Gray8> src, std::uint32_t low
     return apply_lut(src, stretch_table(*quantile(histogram, low), *quantile(histogram, high)), dst);
 }
 
+namespace kernels {
+
+/// 255 (value - lowest) / range to the nearest, for 16 bits: a product with the reciprocal of the range, which
+/// is raised to 16 bits. It is too large by less than 2^-22, which is less than a quotient can be under a half
+/// number, 1 / (2 * 65535).
+struct Stretch16 {
+    std::uint32_t lowest;
+    int raise;
+    std::uint32_t reciprocal;  ///< 255 * 2^39 / raised range, rounded up
+
+    Stretch16(std::int32_t least, std::uint32_t range)
+        : lowest(static_cast<std::uint32_t>(least)), raise(leading_zeros(range) - 16) {
+        const std::uint32_t raised = range << raise;
+        reciprocal = static_cast<std::uint32_t>(((std::uint64_t{255} << 39) + raised - 1) / raised);
+    }
+
+    /// The lower half of the reciprocal counts whole, and one for what its product loses.
+    Gray8 operator()(std::int32_t value) const {
+        const std::uint32_t above = (static_cast<std::uint32_t>(value) - lowest) << raise;
+        const std::uint32_t product = above * (reciprocal >> 16) + (above * (reciprocal & 0xffffu) >> 16) + 1;
+        return static_cast<Gray8>((product + (1u << 22)) >> 23);
+    }
+#if FOVEA_BYTES >= 16
+    /// Half a vector. The sum's lower half only carries.
+    [[gnu::always_inline]] simd::RawWords operator()(simd::RawWords values) const {
+        const auto high = static_cast<std::uint16_t>(reciprocal >> 16);
+        const auto low = static_cast<std::uint16_t>(reciprocal & 0xffffu);
+        const simd::RawWords above = (values - static_cast<std::uint16_t>(lowest & 0xffffu)) << raise;
+        const simd::RawWords whole = above * high;
+        const simd::RawWords less = whole + simd::times_high(above, low) + 1;
+        const simd::RawWords no_carry = simd::at_least_words(less, whole);
+        return (simd::times_high(above, high) + no_carry + 65) >> 7;
+    }
+#endif
+};
+
+template <class Wide>
+void stretch_row(const Wide* src, int width, const Stretch16& stretch, Gray8* dst) {
+    int x = 0;
+#if FOVEA_BYTES >= 16
+    for (; x + simd::lanes <= width; x += simd::lanes) {
+        simd::RawWords first;
+        simd::RawWords second;
+        std::memcpy(&first, src + x, sizeof first);
+        std::memcpy(&second, src + x + simd::half_lanes, sizeof second);
+        simd::narrowed(stretch(first), stretch(second)).store(dst + x);
+    }
+#endif
+    for (; x < width; ++x) dst[x] = stretch(src[x]);
+}
+
+/// For 32 bits, whose products have 64.
+template <class Wide>
+void stretch_row(const Wide* src, int width, std::int64_t lowest, std::uint64_t range, Gray8* dst) {
+    for (int x = 0; x < width; ++x) {
+        const auto above = static_cast<std::uint64_t>(src[x] - lowest);
+        dst[x] = static_cast<Gray8>((above * 510 + range) / (2 * range));
+    }
+}
+
+}  // namespace kernels
+
 template <class Wide>
 Status auto_scale(ImageView<const Wide> src, ImageView<Gray8> dst) {
     static_assert(std::is_integral_v<Wide> && (sizeof(Wide) == 2 || sizeof(Wide) == 4),
@@ -93,29 +159,14 @@ Status auto_scale(ImageView<const Wide> src, ImageView<Gray8> dst) {
     const std::int64_t lowest = extremes.lowest;
     // A range of 0 makes every numerator 0.
     const auto range = static_cast<std::uint64_t>(maximum<std::int64_t>(extremes.highest - lowest, 1));
-    for (int y = 0; y < src.height(); ++y) {
-        const Wide* from = src.row(y);
-        Gray8* to = dst.row(y);
-        if constexpr (sizeof(Wide) == 2) {
-            // In 32 bits, so that many pixels are done at once. The range is raised to 16 bits; the
-            // reciprocal is too small by less than 1 in 2^-23, which 16 bits of value make less than 2^-7:
-            // the quotient is right or one too small, and the remainder tells. 255 * 2^23 + 2^22 fits 32
-            // bits.
-            const auto width = static_cast<std::uint32_t>(range);
-            const int raise = leading_zeros(width) - 16;
-            const std::uint32_t reciprocal = (255u << 23) / (width << raise);
-            for (int x = 0; x < src.width(); ++x) {
-                const auto above = static_cast<std::uint32_t>(from[x] - static_cast<std::int32_t>(lowest));
-                const std::uint32_t guess = ((above << raise) * reciprocal + (1u << 22)) >> 23;
-                const std::uint32_t left = above * 510u + width - guess * (2 * width);
-                to[x] = static_cast<Gray8>(guess + (left >= 2 * width ? 1 : 0));
-            }
-        } else {
-            for (int x = 0; x < src.width(); ++x) {
-                const auto above = static_cast<std::uint64_t>(from[x] - lowest);
-                to[x] = static_cast<Gray8>((above * 510 + range) / (2 * range));
-            }
-        }
+    const Size rows = detail::rows_of(src.size(), src, dst);
+    if constexpr (sizeof(Wide) == 2) {
+        const kernels::Stretch16 stretch(extremes.lowest, static_cast<std::uint32_t>(range));
+        for (int y = 0; y < rows.height; ++y)
+            kernels::stretch_row(src.row(y), rows.width, stretch, dst.row(y));
+    } else {
+        for (int y = 0; y < rows.height; ++y)
+            kernels::stretch_row(src.row(y), rows.width, lowest, range, dst.row(y));
     }
     return Status::ok;
 }
