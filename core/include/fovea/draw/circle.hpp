@@ -68,24 +68,17 @@ constexpr std::int64_t circle_half_width(std::int64_t dy, std::int64_t radius, i
     return move < 0 ? nearest : nearest - 1;
 }
 
-/// The same from that of a neighbouring row. Near the top and the bottom, where it differs by much, and far
-/// outside an image a few steps would not reach it.
+/// The same from that of a row nearer to the centre, which is not smaller. dy is not negative. Near the top
+/// and the bottom, where it differs by much, and far outside an image a few steps would not reach it.
 constexpr std::int64_t circle_half_width_from(std::int64_t dx, std::int64_t dy, std::int64_t radius,
                                               int move) {
-    const auto row = static_cast<std::int64_t>(magnitude(dy));
     const auto belongs = [&](std::int64_t width) {
-        const std::int64_t far = maximum(width, row);
-        const std::int64_t near = minimum(width, row);
+        const std::int64_t far = maximum(width, dy);
+        const std::int64_t near = minimum(width, dy);
         return far * (far + move) + near * near < radius * radius;
     };
-    for (int steps = 0; steps < 4; ++steps) {
-        if (dx >= 0 && !belongs(dx))
-            --dx;
-        else if (belongs(dx + 1))
-            ++dx;
-        else
-            return dx;
-    }
+    for (int steps = 0; steps < 8; ++steps, --dx)
+        if (dx < 0 || belongs(dx)) return dx;
     return circle_half_width(dy, radius, move);
 }
 
@@ -95,18 +88,23 @@ void fill_ring(ImageView<Pixel> image, Point centre, std::int64_t outer, std::in
     if (outer == 0) return fill_run(image, centre.y, centre.x, centre.x, colour);
     const std::int64_t x = centre.x;
     const std::int64_t y = centre.y;
-    const std::int64_t last = minimum<std::int64_t>(y + outer, image.height() - 1);
-    std::int64_t reach = 0;
-    std::int64_t hole = -1;
-    for (std::int64_t row = maximum<std::int64_t>(y - outer, 0); row <= last; ++row) {
-        reach = circle_half_width_from(reach, row - y, outer, -1);
-        if (inner > 0) hole = circle_half_width_from(hole, row - y, inner, 1);
-        if (hole < 0) {
-            fill_run(image, row, x - reach, x + reach, colour);
-        } else {
+    const std::int64_t last_row = image.height() - 1;
+    // Rows as far above the centre as below it are alike, so both are drawn at once, from the nearest inside
+    // the image to the farthest.
+    const std::int64_t nearest = maximum<std::int64_t>(maximum(-y, y - last_row), 0);
+    const std::int64_t farthest = minimum(outer, maximum(y, last_row - y));
+    std::int64_t reach = outer;
+    std::int64_t hole = inner - 1;
+    for (std::int64_t away = nearest; away <= farthest; ++away) {
+        reach = circle_half_width_from(reach, away, outer, -1);
+        hole = inner > 0 ? circle_half_width_from(hole, away, inner, 1) : -1;
+        const auto draw = [&](std::int64_t row) {
+            if (hole < 0) return fill_run(image, row, x - reach, x + reach, colour);
             fill_run(image, row, x - reach, x - hole - 1, colour);
             fill_run(image, row, x + hole + 1, x + reach, colour);
-        }
+        };
+        draw(y - away);
+        if (away > 0) draw(y + away);
     }
 }
 

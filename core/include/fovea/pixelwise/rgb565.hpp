@@ -91,15 +91,14 @@ inline void rgb_from_rgb565_row(const Rgb565* src, int width, Rgb888* dst) {
 /// rgb565_to_gray() of one row.
 inline void gray_from_rgb565_row(const Rgb565* src, int width, Gray8* dst) {
 #if FOVEA_BYTES >= 16
-    simd::for_each_step<2, 1>(
-        reinterpret_cast<const std::uint8_t*>(src), width, dst,
-        [](const std::uint8_t* from, std::uint8_t* to) {
-            simd::RawWords first;
-            simd::RawWords second;
-            std::memcpy(&first, from, sizeof first);
-            std::memcpy(&second, from + sizeof first, sizeof second);
-            simd::narrowed(gray_of_rgb565(first), gray_of_rgb565(second)).store(to);
-        });
+    simd::for_each_step<2, 1>(reinterpret_cast<const std::uint8_t*>(src), width, dst,
+                              [](const std::uint8_t* from, std::uint8_t* to) {
+                                  simd::RawWords first;
+                                  simd::RawWords second;
+                                  std::memcpy(&first, from, sizeof first);
+                                  std::memcpy(&second, from + sizeof first, sizeof second);
+                                  simd::narrowed(gray_of_rgb565(first), gray_of_rgb565(second)).store(to);
+                              });
 #else
     for (int x = 0; x < width; ++x) dst[x] = gray_of(rgb_of_rgb565(src[x]));
 #endif

@@ -89,9 +89,9 @@ inline Status histogram_stretching(ImageView<const Gray8> src, std::uint32_t low
 
 namespace kernels {
 
-/// 255 (value - lowest) / range to the nearest, for 16 bits: a product with the reciprocal of the range, which
-/// is raised to 16 bits. It is too large by less than 2^-22, which is less than a quotient can be under a half
-/// number, 1 / (2 * 65535).
+/// 255 (value - lowest) / range to the nearest, for 16 bits: a product with the reciprocal of the range,
+/// which is raised to 16 bits. It is too large by less than 2^-22, which is less than a quotient can be under
+/// a half number, 1 / (2 * 65535).
 struct Stretch16 {
     std::uint32_t lowest;
     int raise;
