@@ -81,7 +81,7 @@ public:
         std::ptrdiff_t kept = 0;
         for (std::ptrdiff_t i = 0; i < live_; ++i) {
             if (edges_[i].last_row < row) continue;
-            edges_[kept] = edges_[i];
+            if (kept != i) edges_[kept] = edges_[i];
             edges_[kept++].crossing.step();
         }
         // Waiting edges from the far end close the gap.
@@ -112,9 +112,11 @@ private:
             Slope(upper.x, std::int64_t{lower.x} - upper.x, run, run - 1, std::int64_t{first} - upper.y),
             first, last};
     }
-    /// By insertion: from one row to the next the order hardly changes.
+    /// By insertion: from one row to the next the order hardly changes. An edge that stays is not moved, not
+    /// even in place: its step has only just been stored.
     void sort() {
         for (std::ptrdiff_t i = 1; i < live_; ++i) {
+            if (edges_[i - 1].crossing.value() <= edges_[i].crossing.value()) continue;
             const PolygonEdge edge = edges_[i];
             std::ptrdiff_t at = i;
             for (; at > 0 && edges_[at - 1].crossing.value() > edge.crossing.value(); --at)
@@ -146,14 +148,15 @@ Status fill_polygon(ImageView<Pixel> image, Span<const Point> vertices, NonDeduc
         if (!drawable(p)) return Status::bad_argument;
     if (scratch.size() < fill_polygon_scratch(vertices.size())) return Status::scratch_too_small;
 
+    const detail::Paint<Pixel> paint(colour);
     detail::EdgeTable edges(vertices, image.height(), scratch);
     if (edges.empty()) return Status::ok;
     for (int y = edges.first_row(); y < image.height() && !edges.empty(); ++y) {
         edges.enter(y);
         const Span<const PolygonEdge> live = edges.live();
         for (std::ptrdiff_t i = 0; i + 1 < live.size(); i += 2)
-            fill_run(image, y, live[i].crossing.value(), std::int64_t{live[i + 1].crossing.value()} - 1,
-                     colour);
+            detail::paint_run(image, y, live[i].crossing.value(),
+                              std::int64_t{live[i + 1].crossing.value()} - 1, paint);
     }
     return Status::ok;
 }

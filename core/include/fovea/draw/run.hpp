@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
@@ -57,6 +58,41 @@ Status draw_point(ImageView<Pixel> image, Point place, NonDeduced<Pixel> colour)
     if (image.contains(place)) image(place.x, place.y) = colour;
     return Status::ok;
 }
+
+namespace detail {
+
+/// A colour to fill many long runs with, in blocks of pixels: single ones of three bytes make no vectors.
+template <class Pixel>
+class Paint {
+public:
+    explicit Paint(Pixel colour) {
+        for (Pixel& pixel : block_) pixel = colour;
+    }
+    void fill(Pixel* to, int count) const {
+        if (count < size) {
+            for (int x = 0; x < count; ++x) to[x] = block_[0];
+            return;
+        }
+        for (int x = 0; x < count - size; x += size) std::memcpy(to + x, block_, sizeof block_);
+        std::memcpy(to + count - size, block_, sizeof block_);
+    }
+
+private:
+    static constexpr int size = 16;
+    Pixel block_[size];
+};
+
+/// fill_run() with paint.
+template <class Pixel>
+void paint_run(ImageView<Pixel> image, std::int64_t y, std::int64_t left, std::int64_t right,
+               const Paint<Pixel>& paint) {
+    if (y < 0 || y >= image.height()) return;
+    const auto first = static_cast<int>(clamp<std::int64_t>(left, 0, image.width()));
+    const auto last = static_cast<int>(clamp<std::int64_t>(right, -1, image.width() - 1));
+    paint.fill(image.row(static_cast<int>(y)) + first, last - first + 1);
+}
+
+}  // namespace detail
 
 template <class Pixel>
 void fill_run(ImageView<Pixel> image, std::int64_t y, std::int64_t left, std::int64_t right,
