@@ -98,6 +98,21 @@ TEST(Cells, AlongALineAreTheSameAsAnywhere) {
     }
 }
 
+TEST(Cells, AlongALineThatEndsBeyondTheHorizonAreReadUpToIt) {
+    const Image image(90, 80, 96);
+    const simd::CellSource source = image.source(false);
+    simd::PlaceRun run{};
+    for (int i = 0; i < simd::run_length; ++i) {
+        run.x[i] = i < 40 ? 1000 * (i - 2) : simd::no_place;
+        run.y[i] = 2000;
+    }
+    const simd::PlaceRun places = run;
+    std::uint8_t line[simd::run_length];
+    simd::blend_cells(source, run, simd::run_length, simd::PlaceOrder::along_a_line, line);
+    for (int i = 0; i < simd::run_length; ++i)
+        ASSERT_EQ(line[i], simd::blend_cell(source, places.x[i], places.y[i])) << i;
+}
+
 TEST(Places, AreRoundedHighWords) {
     Random random(914);
     for (int round = 0; round < 200; ++round) {

@@ -7,10 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
-#include <fovea/number/integer.hpp>
 #include <fovea/simd/backend.hpp>
+#include <fovea/simd/cell_source.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/places.hpp>
 
@@ -23,77 +22,6 @@
 namespace fovea {
 inline namespace FOVEA_ISA {
 namespace simd {
-
-/// A gray image with what a fetch from it needs. Places outside are moved to the nearest pixel, or give level
-/// where no pixel is the nearest; no_place gives level always.
-struct CellSource {
-    const std::uint8_t* first;
-    std::ptrdiff_t stride;
-    std::int32_t width;
-    std::int32_t height;
-    /// place + bias, with wrap-around, is above limit where level stands; for no_place it always is.
-    std::uint32_t bias;
-    std::int32_t limit_x;
-    std::int32_t limit_y;
-    std::uint8_t level;
-    /// Rows and columns are such that the vectors' offsets fit 16 by 16 bits.
-    bool fits_vectors;
-
-    /// replicate: the nearest pixel for all places; else level for those farther than half a pixel out.
-    CellSource(const std::uint8_t* pixels, int columns, int rows, std::ptrdiff_t stride_bytes, bool replicate,
-               std::uint8_t outside)
-        : first(pixels),
-          stride(stride_bytes),
-          width(columns),
-          height(rows),
-          bias(replicate ? ~0u : 0x80000080u),
-          limit_x(replicate ? most - 1 : least + 256 * columns - 1),
-          limit_y(replicate ? most - 1 : least + 256 * rows - 1),
-          level(outside),
-          fits_vectors(columns >= 2 && rows >= 2 && stride_bytes >= columns && stride_bytes <= 32767 &&
-                       rows <= 32767) {}
-
-    /// True if level stands at a place.
-    [[gnu::always_inline]] bool outside(std::int32_t x, std::int32_t y) const {
-        return static_cast<std::int32_t>(static_cast<std::uint32_t>(x) + bias) > limit_x ||
-               static_cast<std::int32_t>(static_cast<std::uint32_t>(y) + bias) > limit_y;
-    }
-
-    /// True if a place has a pixel on its right and one below, by at least a pixel more.
-    bool well_inside(std::int32_t x, std::int32_t y) const {
-        return x >= 256 && y >= 256 && x < 256 * (width - 2) && y < 256 * (height - 2);
-    }
-
-private:
-    static constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
-    static constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-};
-
-/// The four pixels around a place, weighed; to the nearest, ties up. Every sum is at most 255 * 2^16 + 2^15.
-[[gnu::always_inline]] inline std::uint8_t blend_cell(const CellSource& src, std::int32_t x, std::int32_t y) {
-    if (src.outside(x, y)) return src.level;
-    x = clamp<std::int32_t>(x, 0, 256 * (src.width - 1));
-    y = clamp<std::int32_t>(y, 0, 256 * (src.height - 1));
-    const int left = x >> 8;
-    const int top = y >> 8;
-    const auto right = static_cast<std::uint32_t>(x & 255);
-    const auto down = static_cast<std::uint32_t>(y & 255);
-    const std::uint8_t* above = src.first + top * src.stride + left;
-    const std::uint8_t* below = down == 0 ? above : above + src.stride;
-    const int next = right == 0 ? 0 : 1;
-    const std::uint32_t upper = above[0] * (256 - right) + above[next] * right;
-    const std::uint32_t lower = below[0] * (256 - right) + below[next] * right;
-    return static_cast<std::uint8_t>((upper * (256 - down) + lower * down + 32768) >> 16);
-}
-
-/// The pixel nearest to a place, ties to the right and down.
-[[gnu::always_inline]] inline std::uint8_t nearest_cell(const CellSource& src, std::int32_t x,
-                                                        std::int32_t y) {
-    if (src.outside(x, y)) return src.level;
-    x = clamp<std::int32_t>(x, 0, 256 * (src.width - 1));
-    y = clamp<std::int32_t>(y, 0, 256 * (src.height - 1));
-    return src.first[((y + 128) >> 8) * src.stride + ((x + 128) >> 8)];
-}
 
 #if FOVEA_BYTES >= 16
 
@@ -165,109 +93,193 @@ inline constexpr int places = FOVEA_BYTES / 4;
                                                   : pair;
 }
 
-/// Turns the places of a run into offsets of the upper left pixel (x) and weights (y): right in the lower
-/// half, down in the upper one, both 0..256, and the sign set where the place is outside.
-inline void weigh_places(const CellSource& src, int count, PlaceRun& run) {
-    const Ints last_x = all_ints(256 * (src.width - 1));
-    const Ints last_y = all_ints(256 * (src.height - 1));
-    const Ints last_left = all_ints(src.width - 2);
-    const Ints last_top = all_ints(src.height - 2);
-    const Ints stride = all_ints(static_cast<std::int32_t>(src.stride));
-    for (int i = 0; i < count; i += places) {
-        const Ints x = load_ints(run.x + i);
-        const Ints y = load_ints(run.y + i);
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+/// Four bytes from each offset on.
+[[gnu::always_inline]] inline Ints gather(const std::uint8_t* first, Ints offsets) {
+    // With a mask and zeros, since GCC lets the plain form wait for the register's former value.
+    return bits_as<Ints>(_mm256_mask_i32gather_epi32(_mm256_setzero_si256(),
+                                                     reinterpret_cast<const int*>(first),
+                                                     bits_as<__m256i>(offsets), _mm256_set1_epi32(-1), 1));
+}
+#endif
+
+/// The cells whose upper left pixels lie at offsets: the two pixels of the row above in the lower half of a
+/// lane, those of the row below in the upper one.
+[[gnu::always_inline]] inline Ints cells_at(const std::uint8_t* first, std::ptrdiff_t stride, Ints offsets) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    // Of four bytes each two are in vain: those after the pair above, and those before the pair below. The
+    // image has all of them, since it has two columns and two rows.
+    const Ints upper = gather(first, offsets);
+    const Ints lower = gather(first + stride - 2, offsets);
+    return bits_as<Ints>(_mm256_blend_epi16(bits_as<__m256i>(upper), bits_as<__m256i>(lower), 0xaa));
+#elif FOVEA_BYTES == 16 && defined(__SSE2__)
+    std::uint64_t pairs[2];
+    std::memcpy(pairs, &offsets, sizeof pairs);
+    const auto low = [](std::uint64_t pair) { return static_cast<std::uint32_t>(pair); };
+    const auto high = [](std::uint64_t pair) { return pair >> 32; };
+    const auto word = [](const std::uint8_t* p) { return static_cast<std::int16_t>(pair_at(p)); };
+    const std::uint8_t* below = first + stride;
+    __m128i cells = _mm_cvtsi32_si128(word(first + low(pairs[0])));
+    cells = _mm_insert_epi16(cells, word(below + low(pairs[0])), 1);
+    cells = _mm_insert_epi16(cells, word(first + high(pairs[0])), 2);
+    cells = _mm_insert_epi16(cells, word(below + high(pairs[0])), 3);
+    cells = _mm_insert_epi16(cells, word(first + low(pairs[1])), 4);
+    cells = _mm_insert_epi16(cells, word(below + low(pairs[1])), 5);
+    cells = _mm_insert_epi16(cells, word(first + high(pairs[1])), 6);
+    cells = _mm_insert_epi16(cells, word(below + high(pairs[1])), 7);
+    return bits_as<Ints>(cells);
+#else
+    std::int32_t at[places];
+    std::int32_t cells[places];
+    store_ints(offsets, at);
+    for (int i = 0; i < places; ++i) {
+        const std::uint8_t* above = first + at[i];
+        cells[i] = static_cast<std::int32_t>(pair_at(above) | pair_at(above + stride) << 16);
+    }
+    return load_ints(cells);
+#endif
+}
+
+/// The pixels at offsets.
+[[gnu::always_inline]] inline Ints pixels_at(const std::uint8_t* first, Ints offsets) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    // Four bytes that end at the pixel, or the first four of the image, which has as many.
+    const Ints start = offsets > 3 ? offsets - 3 : Ints{};
+    const Ints fours = gather(first, start);
+    const Ints drop = (offsets - start) << 3;
+    return bits_as<Ints>(_mm256_srlv_epi32(bits_as<__m256i>(fours), bits_as<__m256i>(drop))) & 255;
+#else
+    std::int32_t at[places];
+    std::int32_t pixels[places];
+    store_ints(offsets, at);
+    for (int i = 0; i < places; ++i) pixels[i] = first[at[i]];
+    return load_ints(pixels);
+#endif
+}
+
+/// Cells weighed by right and down, 0..256.
+[[gnu::always_inline]] inline Ints blend_lanes(Ints cell, Ints right, Ints down) {
+    // The row above in the lower halves, the row below in the upper ones; at most 255 * 256, modulo 2^16.
+    const RawWords a = bits_as<RawWords>(cell) & 255;
+    const RawWords b = bits_as<RawWords>(cell) >> 8;
+    const RawWords across = bits_as<RawWords>(right | (right << 16));
+    const RawWords rows = (a << 8) + (b - a) * across;
+    // Signed products: 32768 is taken from both rows, and 32768 * 256 given back with the rounding.
+    const Ints both = (256 - down) | (down << 16);
+    return (pair_sums(bits_as<Ints>(rows ^ 0x8000), both) + 32768 * 257) >> 16;
+}
+
+/// Cells weighed by the low bytes of x and y.
+[[gnu::always_inline]] inline Ints blend_parts(Ints cell, Ints x, Ints y) {
+#if FOVEA_BYTES == 32 && defined(__AVX2__)
+    const __m256i four_times =
+        _mm256_set_epi32(0x0c0c0c0c, 0x08080808, 0x04040404, 0, 0x0c0c0c0c, 0x08080808, 0x04040404, 0);
+    const __m256i twice = _mm256_or_si256(four_times, _mm256_set1_epi16(-0x8000));
+    const __m256i low = _mm256_set1_epi16(255);
+    const __m256i cells = bits_as<__m256i>(cell);
+    // 255 - right and right, times pixels less 128; then the 256th part of the left pixel.
+    const __m256i across = _mm256_xor_si256(_mm256_shuffle_epi8(bits_as<__m256i>(x), four_times), low);
+    const __m256i products = _mm256_maddubs_epi16(across, _mm256_xor_si256(cells, _mm256_set1_epi8(-128)));
+    const __m256i rows = _mm256_add_epi16(products, _mm256_and_si256(cells, low));
+    // 256 - down as -1 - down + 257, and down.
+    const __m256i down = _mm256_shuffle_epi8(bits_as<__m256i>(y), twice);
+    const __m256i both =
+        _mm256_add_epi16(_mm256_xor_si256(down, _mm256_set1_epi32(0xffff)), _mm256_set1_epi32(257));
+    // 32640 was taken from both rows.
+    return (pair_sums(bits_as<Ints>(rows), bits_as<Ints>(both)) + (32640 * 256 + 32768)) >> 16;
+#else
+    return blend_lanes(cell, x & 255, y & 255);
+#endif
+}
+
+/// The pixels at places that all have a pixel on their right and one below.
+struct BlendInside {
+    const std::uint8_t* first;
+    std::ptrdiff_t step;
+    Ints stride;
+
+    [[gnu::always_inline]] explicit BlendInside(const CellSource& src)
+        : first(src.first), step(src.stride), stride(all_ints(static_cast<std::int32_t>(src.stride))) {}
+    [[gnu::always_inline]] Ints operator()(Ints x, Ints y) const {
+        const Ints cells = cells_at(first, step, pair_sums(y >> 8, stride) + (x >> 8));
+        return blend_parts(cells, x, y);
+    }
+};
+
+/// The pixels at any places.
+struct BlendAnywhere {
+    const CellSource src;
+    Ints last_x = all_ints(256 * (src.width - 1));
+    Ints last_y = all_ints(256 * (src.height - 1));
+    Ints last_left = all_ints(src.width - 2);
+    Ints last_top = all_ints(src.height - 2);
+    Ints stride = all_ints(static_cast<std::int32_t>(src.stride));
+    Ints level = all_ints(src.level);
+
+    [[gnu::always_inline]] Ints operator()(Ints x, Ints y) const {
         const Ints held_x = held(x, last_x);
         const Ints held_y = held(y, last_y);
         Ints left = held_x >> 8;
         Ints top = held_y >> 8;
         left = left < last_left ? left : last_left;
         top = top < last_top ? top : last_top;
+        const Ints cells = cells_at(src.first, src.stride, pair_sums(top, stride) + left);
+        const Ints blended = blend_lanes(cells, held_x - (left << 8), held_y - (top << 8));
         const Ints outside = outside_lanes(src, x, y);
-        store_ints(pair_sums(top, stride) + left, run.x + i);
-        store_ints((held_x - (left << 8)) | ((held_y - (top << 8)) << 16) | (outside & no_place), run.y + i);
+        return (outside & level) | (~outside & blended);
     }
-}
+};
 
-/// The same for places that all have a pixel on their right and one below.
-inline void weigh_inside(const CellSource& src, int count, PlaceRun& run) {
-    const Ints stride = all_ints(static_cast<std::int32_t>(src.stride));
-    for (int i = 0; i < count; i += places) {
-        const Ints x = load_ints(run.x + i);
-        const Ints y = load_ints(run.y + i);
-        store_ints(pair_sums(y >> 8, stride) + (x >> 8), run.x + i);
-        store_ints((x & 255) | ((y & 255) << 16), run.y + i);
+/// dst[i] = sample(x, y) at the first count places of a run.
+template <class Sample>
+[[gnu::always_inline]] inline void sample_run(const PlaceRun& run, int count, Sample sample,
+                                              std::uint8_t* dst) {
+    // Whole vectors beside dst where they would reach beyond it.
+    std::uint8_t beside[run_length];
+    std::uint8_t* to = count % FOVEA_BYTES == 0 ? dst : beside;
+    for (int i = 0; i < count; i += FOVEA_BYTES) {
+        const auto lanes_from = [&](int k) { return sample(load_ints(run.x + k), load_ints(run.y + k)); };
+        const RawBytes pixels = lowest_bytes(lanes_from(i), lanes_from(i + places),
+                                             lanes_from(i + 2 * places), lanes_from(i + 3 * places));
+        std::memcpy(to + i, &pixels, sizeof pixels);
     }
+    if (to != dst) std::memcpy(dst, beside, static_cast<std::size_t>(count));
 }
 
 /// Whether CellSource::well_inside() for all places of a run.
 [[gnu::always_inline]] inline bool all_inside(const CellSource& src, int count, const PlaceRun& run) {
+    if (src.width < 3 || src.height < 3) return false;
     const Unsigned last_x = Unsigned{} + static_cast<std::uint32_t>(256 * (src.width - 2) - 1);
     const Unsigned last_y = Unsigned{} + static_cast<std::uint32_t>(256 * (src.height - 2) - 1);
-    // The sign of a difference tells; where it wraps, the sign of the place does.
-    Unsigned signs{};
+    // The sign of one of the two differences tells, also where the other one wraps.
+    Unsigned signs_x{};
+    Unsigned signs_y{};
     for (int i = 0; i < count; i += places) {
         const auto x = bits_as<Unsigned>(load_ints(run.x + i));
         const auto y = bits_as<Unsigned>(load_ints(run.y + i));
-        signs |= (x - 256) | (last_x - x) | x | (y - 256) | (last_y - y) | y;
+        signs_x |= (x - 256) | (last_x - x);
+        signs_y |= (y - 256) | (last_y - y);
     }
     std::int32_t lanes_of[places];
-    store_ints(bits_as<Ints>(signs), lanes_of);
+    store_ints(bits_as<Ints>(signs_x | signs_y), lanes_of);
     std::int32_t sign = 0;
     for (const std::int32_t one : lanes_of) sign |= one;
     return sign >= 0;
 }
 
-/// Eight, four, ... pixels in lanes of 32 bits, from cells and weights.
-[[gnu::always_inline]] inline Ints blend_lanes(Ints cell, Ints weights) {
-    // The row above in the lower halves, the row below in the upper ones; at most 255 * 256, modulo 2^16.
-    const RawWords a = bits_as<RawWords>(cell) & 255;
-    const RawWords b = bits_as<RawWords>(cell) >> 8;
-    const Ints right = weights & 0x1ff;
-    const RawWords across = bits_as<RawWords>(right | (right << 16));
-    const RawWords rows = (a << 8) + (b - a) * across;
-    // Signed products: 32768 is taken from both rows, and 32768 * 256 given back with the rounding.
-    const Ints down = (weights >> 16) & 0x1ff;
-    const Ints both = (256 - down) | (down << 16);
-    return (pair_sums(bits_as<Ints>(rows ^ 0x8000), both) + 32768 * 257) >> 16;
-}
-[[gnu::always_inline]] inline Ints blend_lanes(Ints cell, Ints weights, Ints level) {
-    const Ints outside = weights >> 31;
-    return (outside & level) | (~outside & blend_lanes(cell, weights));
-}
-
-/// dst[i] = blend(cell, weights) for a run whose cells were fetched.
-template <class Blend>
-[[gnu::always_inline]] inline void blend_fetched(const PlaceRun& run, int count, Blend blend,
-                                                 std::uint8_t* dst) {
-    for (int i = 0; i < count; i += FOVEA_BYTES) {
-        const auto lanes_from = [&](int k) { return blend(load_ints(run.x + k), load_ints(run.y + k)); };
-        const RawBytes pixels = lowest_bytes(lanes_from(i), lanes_from(i + places),
-                                             lanes_from(i + 2 * places), lanes_from(i + 3 * places));
-        if (count - i >= FOVEA_BYTES)
-            std::memcpy(dst + i, &pixels, sizeof pixels);
-        else
-            std::memcpy(dst + i, &pixels, static_cast<std::size_t>(count - i));
-    }
-}
-
-/// The cells at the offsets of a run, in their place.
-inline void fetch_cells(const CellSource& src, int count, PlaceRun& run) {
-    const std::uint8_t* above = src.first;
-    const std::uint8_t* below = src.first + src.stride;
-    for (int i = 0; i < count; ++i) {
-        const std::ptrdiff_t at = run.x[i];
-        run.x[i] = static_cast<std::int32_t>(pair_at(above + at) | pair_at(below + at) << 16);
-    }
-}
-
+/// blend_cell() at the first count places of a run, which is filled up.
 inline void blend_cells(const CellSource& src, PlaceRun& run, int count, PlaceOrder order,
                         std::uint8_t* dst) {
     if (!src.fits_vectors) {
         for (int i = 0; i < count; ++i) dst[i] = blend_cell(src, run.x[i], run.y[i]);
         return;
     }
-    // What fills up the last vector lies like the last place.
     const int last = count - 1;
+    if (order == PlaceOrder::along_a_line && src.all_outside(run.x[0], run.y[0], run.x[last], run.y[last])) {
+        std::memset(dst, src.level, static_cast<std::size_t>(count));
+        return;
+    }
+    // What fills up the last vector lies like the last place.
     for (int i = count; i % FOVEA_BYTES != 0; ++i) {
         run.x[i] = run.x[last];
         run.y[i] = run.y[last];
@@ -275,44 +287,37 @@ inline void blend_cells(const CellSource& src, PlaceRun& run, int count, PlaceOr
     const bool inside = order == PlaceOrder::along_a_line
                             ? src.well_inside(run.x[0], run.y[0]) && src.well_inside(run.x[last], run.y[last])
                             : all_inside(src, count, run);
-    if (inside) {
-        weigh_inside(src, count, run);
-        fetch_cells(src, count, run);
-        blend_fetched(
-            run, count, [](Ints cell, Ints weights) { return blend_lanes(cell, weights); }, dst);
-    } else {
-        weigh_places(src, count, run);
-        fetch_cells(src, count, run);
-        const Ints level = all_ints(src.level);
-        blend_fetched(
-            run, count, [=](Ints cell, Ints weights) { return blend_lanes(cell, weights, level); }, dst);
-    }
+    if (inside)
+        sample_run(run, count, BlendInside{src}, dst);
+    else
+        sample_run(run, count, BlendAnywhere{src}, dst);
 }
 
-/// nearest_cell() at the first count places of a run, which is used up.
+/// The pixels nearest to any places.
+struct NearestAnywhere {
+    const CellSource src;
+    Ints last_x = all_ints(256 * (src.width - 1));
+    Ints last_y = all_ints(256 * (src.height - 1));
+    Ints stride = all_ints(static_cast<std::int32_t>(src.stride));
+    Ints level = all_ints(src.level);
+
+    [[gnu::always_inline]] Ints operator()(Ints x, Ints y) const {
+        const Ints column = (held(x, last_x) + 128) >> 8;
+        const Ints row = (held(y, last_y) + 128) >> 8;
+        const Ints pixels = pixels_at(src.first, pair_sums(row, stride) + column);
+        const Ints outside = outside_lanes(src, x, y);
+        return (outside & level) | (~outside & pixels);
+    }
+};
+
+/// nearest_cell() at the first count places of a run, which is filled up.
 inline void nearest_cells(const CellSource& src, PlaceRun& run, int count, std::uint8_t* dst) {
     if (!src.fits_vectors) {
         for (int i = 0; i < count; ++i) dst[i] = nearest_cell(src, run.x[i], run.y[i]);
         return;
     }
-    for (int i = count; i % places != 0; ++i) run.x[i] = run.y[i] = 0;
-    const Ints last_x = all_ints(256 * (src.width - 1));
-    const Ints last_y = all_ints(256 * (src.height - 1));
-    const Ints stride = all_ints(static_cast<std::int32_t>(src.stride));
-    for (int i = 0; i < count; i += places) {
-        const Ints x = load_ints(run.x + i);
-        const Ints y = load_ints(run.y + i);
-        const Ints column = (held(x, last_x) + 128) >> 8;
-        const Ints row = (held(y, last_y) + 128) >> 8;
-        store_ints(pair_sums(row, stride) + column, run.x + i);
-        store_ints(outside_lanes(src, x, y), run.y + i);
-    }
-    const std::uint8_t* first = src.first;
-    const std::uint8_t level = src.level;
-    for (int i = 0; i < count; ++i) {
-        const std::uint8_t pixel = first[run.x[i]];
-        dst[i] = run.y[i] != 0 ? level : pixel;
-    }
+    for (int i = count; i % FOVEA_BYTES != 0; ++i) run.x[i] = run.y[i] = 0;
+    sample_run(run, count, NearestAnywhere{src}, dst);
 }
 
 #else

@@ -35,6 +35,18 @@ enum class PlaceOrder : std::uint8_t {
     along_a_line,  ///< one after the other on a straight line, to within half a pixel
 };
 
+#if FOVEA_BYTES >= 16
+/// All bits of the lanes whose number has that bit.
+template <class Wide>
+[[gnu::always_inline]] inline Wide pair_marks(int bit) {
+    constexpr std::uint64_t all = ~std::uint64_t{0};
+    constexpr int pairs = sizeof(Wide) / 8;
+    Wide marks{};
+    for (int i = 0; i < pairs; ++i) marks[i] = (i & bit) != 0 ? all : 0;
+    return marks;
+}
+#endif
+
 /// The high words of start, start + step, ... rounded to the nearest, ties up; all of them must fit 64 bits.
 inline void straight_places(std::int64_t start, std::int64_t step, int count, std::int32_t* to) {
     const std::uint64_t first = static_cast<std::uint64_t>(start) + (std::uint64_t{1} << 31);
@@ -43,10 +55,9 @@ inline void straight_places(std::int64_t start, std::int64_t step, int count, st
     using Wide [[gnu::vector_size(FOVEA_BYTES)]] = std::uint64_t;
     constexpr int pairs = FOVEA_BYTES / 8;
     constexpr bool big_endian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
-    std::uint64_t starts[pairs];
-    for (int i = 0; i < pairs; ++i) starts[i] = first + by * static_cast<std::uint64_t>(2 * i);
-    Wide even;
-    std::memcpy(&even, starts, sizeof even);
+    // Doubled up rather than written one by one and loaded, which would wait for the memory.
+    Wide even = Wide{} + first;
+    for (int i = 1; i < pairs; i *= 2) even += pair_marks<Wide>(i) & (by * static_cast<std::uint64_t>(2 * i));
     const Wide advance = Wide{} + by * (2 * pairs);
     const Wide high = Wide{} + (~std::uint64_t{0} << 32);
     for (int i = 0; i < count; i += 2 * pairs) {

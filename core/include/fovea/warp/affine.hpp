@@ -205,6 +205,7 @@ namespace kernels {
 
 struct AffinePlaces {
     static constexpr simd::PlaceOrder order = simd::PlaceOrder::along_a_line;
+    static constexpr int strip = warp_strip;
     AffineTransform transform;
 
     void operator()(int x, int y, int count, simd::PlaceRun& run) const {

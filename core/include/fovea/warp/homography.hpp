@@ -136,6 +136,7 @@ namespace kernels {
 class HomographyPlaces {
 public:
     static constexpr simd::PlaceOrder order = simd::PlaceOrder::along_a_line;
+    static constexpr int strip = warp_strip;
 
     explicit HomographyPlaces(const Homography& homography)
         : h_(homography), slope_(homography.wx * simd::curve_length) {}

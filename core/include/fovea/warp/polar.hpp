@@ -153,6 +153,7 @@ namespace kernels {
 
 struct PolarPlaces {
     static constexpr simd::PlaceOrder order = simd::PlaceOrder::along_a_line;
+    static constexpr int strip = warp_strip;
     const std::int32_t* radii;
     const std::int32_t* cosines;
     const std::int32_t* sines;

@@ -96,6 +96,7 @@ namespace kernels {
 
 struct MapPlaces {
     static constexpr simd::PlaceOrder order = simd::PlaceOrder::anywhere;
+    static constexpr int strip = map_strip;
     ImageView<const MapPoint> map;
 
     void operator()(int x, int y, int count, simd::PlaceRun& run) const {
@@ -106,6 +107,7 @@ struct MapPlaces {
 
 struct OffsetPlaces {
     static constexpr simd::PlaceOrder order = simd::PlaceOrder::anywhere;
+    static constexpr int strip = map_strip;
     ImageView<const MapOffset> map;
 
     void operator()(int x, int y, int count, simd::PlaceRun& run) const {
@@ -117,6 +119,7 @@ struct OffsetPlaces {
 
 struct GridPlaces {
     static constexpr simd::PlaceOrder order = simd::PlaceOrder::anywhere;
+    static constexpr int strip = warp_strip;
     ImageView<const MapPoint> grid;
 
     void operator()(int x, int y, int count, simd::PlaceRun& run) const {

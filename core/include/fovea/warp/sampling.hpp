@@ -45,6 +45,8 @@ struct Sampling {
 /// The columns that a warp makes of all rows before it goes on: what it reads for them stays in the cache
 /// even when the source is read at a slant.
 inline constexpr int warp_strip = 128;
+/// The same with a map that has a point for every pixel: it is the larger of the two, and read best in order.
+inline constexpr int map_strip = 2048;
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -142,8 +144,8 @@ template <class Pixel, class Places>
 void warp_frame(ImageView<const Pixel> src, const Places& places, const Sampling<Pixel>& sampling,
                 ImageView<Pixel> dst) {
     const Sampler<Pixel> source(src, sampling);
-    for (int first = 0; first < dst.width(); first += warp_strip) {
-        const int end = minimum(dst.width(), first + warp_strip);
+    for (int first = 0; first < dst.width(); first += Places::strip) {
+        const int end = minimum(dst.width(), first + Places::strip);
         for (int y = 0; y < dst.height(); ++y) warp_row(source, places, y, first, end, dst.row(y));
     }
 }
