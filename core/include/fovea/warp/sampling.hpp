@@ -11,6 +11,7 @@
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/cells.hpp>
+#include <fovea/simd/colour_cells.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/places.hpp>
 
@@ -77,18 +78,34 @@ private:
     Interpolation interpolation_;
 };
 
-/// The same by the pixel, three channels at a time.
+/// The same with three channels, in vectors where it can be, else by the pixel.
 template <>
 class Sampler<Rgb888> {
 public:
     Sampler(ImageView<const Rgb888> src, const Sampling<Rgb888>& sampling)
         : src_(src),
-          inside_(nullptr, src.width(), src.height(), 0, sampling.outside == Outside::replicate, 0),
+          source_(&src.first()->red, src.width(), src.height(), src.stride_bytes(),
+                  sampling.outside == Outside::replicate, 0),
           sampling_(sampling) {}
 
-    void read(const simd::PlaceRun& run, int count, simd::PlaceOrder /*order*/, Rgb888* dst) const {
+    void read(simd::PlaceRun& run, int count, simd::PlaceOrder order, Rgb888* dst) const {
+        const int last = count - 1;
+        if (order == simd::PlaceOrder::along_a_line &&
+            source_.all_outside(run.x[0], run.y[0], run.x[last], run.y[last])) {
+            for (int i = 0; i < count; ++i) dst[i] = sampling_.level;
+            return;
+        }
+        const Rgb888 level = sampling_.level;
+        if (sampling_.interpolation == Interpolation::nearest ||
+            !simd::blend_colour_cells(source_, run, count, level.red | level.green << 8 | level.blue << 16,
+                                      &dst->red))
+            read_one_by_one(run, count, dst);
+    }
+
+private:
+    void read_one_by_one(const simd::PlaceRun& run, int count, Rgb888* dst) const {
         for (int i = 0; i < count; ++i) {
-            if (inside_.outside(run.x[i], run.y[i])) {
+            if (source_.outside(run.x[i], run.y[i])) {
                 dst[i] = sampling_.level;
                 continue;
             }
@@ -100,8 +117,6 @@ public:
                 dst[i] = blended(x, y);
         }
     }
-
-private:
     Rgb888 blended(std::int32_t x, std::int32_t y) const {
         const auto right = static_cast<std::uint32_t>(x & 255);
         const auto down = static_cast<std::uint32_t>(y & 255);
@@ -125,7 +140,7 @@ private:
     static constexpr std::uint64_t bytes = 0x00ff00ff00ffu;
 
     ImageView<const Rgb888> src_;
-    simd::CellSource inside_;
+    simd::CellSource source_;
     Sampling<Rgb888> sampling_;
 };
 
