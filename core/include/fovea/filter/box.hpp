@@ -142,7 +142,7 @@ public:
         else
             down(window, width);
         continue_ends(width);
-        if (element_.width * element_.height <= most_narrow_area) {
+        if (narrow()) {
             add_fours(width);
             divide_narrow(width, dst);
         } else if constexpr (wide_in_vectors) {
@@ -154,6 +154,7 @@ public:
     }
 
 private:
+    bool narrow() const { return element_.width * element_.height <= most_narrow_area; }
     static simd::WordLine line(Span<std::uint8_t> scratch, int width, int number) {
         const int bytes = word_line_scratch(width);
         return simd::WordLine(scratch.from(number * std::ptrdiff_t{bytes}).first(bytes), width);
@@ -176,11 +177,14 @@ private:
     void down_one(const RowWindow<Gray8>& window, int width) {
         const Gray8* first = window[0];
         const Gray8* last = window[window.count() - 1];
-        simd::for_each_vector(width, [&](int x, int count) {
-            const simd::Words sum = remaining_.at<0>(x) + load(last, x, count);
-            columns_.put(x, sum);
-            remaining_.put(x, sum - load(first, x, count));
-        });
+        simd::WordLine columns = columns_;
+        simd::WordLine remaining = remaining_;
+        simd::for_each_vector(
+            width, [&](int x, int count) __attribute__((always_inline)) {
+                const simd::Words sum = remaining.at<0>(x) + load(last, x, count);
+                columns.put(x, sum);
+                remaining.put(x, sum - load(first, x, count));
+            });
     }
     void continue_ends(int width) {
         for (int i = 1; i <= element_.width / 2; ++i) {
@@ -195,20 +199,25 @@ private:
 
     /// Sums of 4 and of 16 columns from each column on: a width is so many of them and so many columns.
     void add_fours(int width) {
+        const simd::WordLine columns = columns_;
+        simd::WordLine fours = fours_;
+        simd::WordLine sixteens = sixteens_;
+        simd::WordLine coarse_sixteens = coarse_sixteens_;
         const int reach = element_.width / 2;
         const int begin = -(reach + reach % 2);
-        if (element_.width < 4) return;
-        for (int x = begin; x <= width + reach - 4; x += simd::lanes)
-            fours_.put(x, (columns_.at<0>(x) + columns_.at<1>(x)) + (columns_.at<2>(x) + columns_.at<3>(x)));
-        if (element_.width < 16) return;
-        for (int x = begin; x <= width + reach - 16; x += simd::lanes) {
-            const simd::Words a = fours_.at<0>(x);
-            const simd::Words b = fours_.at<4>(x);
-            const simd::Words c = fours_.at<8>(x);
-            const simd::Words d = fours_.at<12>(x);
-            sixteens_.put(x, (a + b) + (c + d));
+        if (element_.width < 3) return;
+        // Up to five columns beyond the window are added and subtracted again.
+        for (int x = begin; x <= width + reach + 2; x += simd::lanes)
+            fours.put(x, (columns.at<0>(x) + columns.at<1>(x)) + (columns.at<2>(x) + columns.at<3>(x)));
+        if (element_.width < (narrow() ? 16 : 15)) return;
+        for (int x = begin; x <= width + reach - 10; x += simd::lanes) {
+            const simd::Words a = fours.at<0>(x);
+            const simd::Words b = fours.at<4>(x);
+            const simd::Words c = fours.at<8>(x);
+            const simd::Words d = fours.at<12>(x);
+            sixteens.put(x, (a + b) + (c + d));
             if constexpr (wide_in_vectors)
-                coarse_sixteens_.put(x, ((a >> coarse) + (b >> coarse)) + ((c >> coarse) + (d >> coarse)));
+                coarse_sixteens.put(x, ((a >> coarse) + (b >> coarse)) + ((c >> coarse) + (d >> coarse)));
         }
     }
     simd::Words across_narrow(int x) const {
@@ -242,41 +251,76 @@ private:
     };
     static constexpr int coarse = 6;
 
-    WideSum across_wide(int x) const {
-        int offset = -(element_.width / 2);
-        simd::Words low = columns_.at(x, offset++);
-        for (int i = element_.width % 4; i > 1; --i) low = low + columns_.at(x, offset++);
-        simd::Words high = low >> coarse;
-        for (int i = element_.width / 4 % 4; i > 0; --i, offset += 4) {
-            const simd::Words four = fours_.at(x, offset);
+    /// A width as few sums: 31 is two sixteens less one. Fours may be -1 too.
+    struct Parts {
+        explicit Parts(int width)
+            : reach(width / 2),
+              sixteens((width + 1) / 4 / 4),
+              fours((width + 1) / 4 % 4),
+              one_more(width % 4 == 1) {
+            if (sixteens == 0 || fours < 3) return;
+            ++sixteens;
+            fours = -1;
+        }
+        int reach, sixteens, fours;
+        bool one_more;
+    };
+
+    /// Copies of lines, so that no pixel written can change them.
+    struct Lines {
+        simd::WordLine columns, fours, sixteens, coarse_sixteens;
+        Parts parts;
+    };
+
+    [[gnu::always_inline]] static WideSum across_wide(const Lines& from, int x) {
+        const Parts parts = from.parts;
+        int offset = -parts.reach;
+        simd::Words low = simd::Words::all(0);
+        simd::Words high = low;
+        for (int i = parts.sixteens; i > 0; --i, offset += 16) {
+            low = low + from.sixteens.at(x, offset);
+            high = high + from.coarse_sixteens.at(x, offset);
+        }
+        for (int i = parts.fours; i > 0; --i, offset += 4) {
+            const simd::Words four = from.fours.at(x, offset);
             low = low + four;
             high = high + (four >> coarse);
         }
-        for (int i = element_.width / 16; i > 0; --i, offset += 16) {
-            low = low + sixteens_.at(x, offset);
-            high = high + coarse_sixteens_.at(x, offset);
+        if (parts.fours < 0) {
+            offset -= 4;
+            const simd::Words four = from.fours.at(x, offset);
+            low = low - four;
+            high = high - (four >> coarse);
         }
-        return {low, high};
+        if (parts.one_more) {
+            const simd::Words one = from.columns.at(x, offset);
+            return {low + one, high + (one >> coarse)};
+        }
+        const simd::Words one = from.columns.at(x, offset - 1);
+        return {low - one, high - (one >> coarse)};
     }
     void divide_wide(int width, Gray8* dst) const {
+        const Lines from{columns_, fours_, sixteens_, coarse_sixteens_, Parts(element_.width)};
         const int area = element_.width * element_.height;
         const auto divisor = static_cast<std::uint16_t>(area);
         const simd::Words half = simd::Words::all(static_cast<std::uint16_t>(area / 2));
         const simd::Words one = simd::Words::all(1);
         // 16 / area in 2^-16, rounded down.
         const auto reciprocal = static_cast<std::uint16_t>((1 << 20) / area);
-        simd::for_each_vector(width, [&](int x, int count) {
-            const WideSum sum = across_wide(x);
-            const simd::Words low = sum.low + half;
-            // At most 16 sums were rounded: what 64 coarse is too little is below 64 * 16 + area / 2, so that
-            // its low 16 bits tell it, and with it the sum in 16ths. The quotient of these is right or one
-            // too small: sum < 256 area, so it lacks less than 255.5 area / 2^20 + 15 / area < 1.
-            const simd::Words lacking = low - (sum.coarse << coarse);
-            const simd::Words quotient =
-                times_high((sum.coarse << (coarse - 4)) + (lacking >> 4), reciprocal);
-            const simd::Words rest = low - quotient * divisor;
-            (quotient + (at_least(rest, simd::Words::all(divisor)) & one)).narrow().store(dst + x, count);
-        });
+        simd::for_each_vector(
+            width, [&](int x, int count) __attribute__((always_inline)) {
+                const WideSum sum = across_wide(from, x);
+                const simd::Words low = sum.low + half;
+                // At most 18 sums were rounded, 2 of them subtracted: what 64 coarse is too little is below
+                // 64 * 17 + area / 2 and above area / 2 - 128, which is not below 0 for areas above 255. So
+                // its low 16 bits tell it, and with it the sum in 16ths. The quotient of these is right or
+                // one too small: sum < 256 area, so it lacks less than 255.5 area / 2^20 + 15 / area < 1.
+                const simd::Words lacking = low - (sum.coarse << coarse);
+                const simd::Words quotient =
+                    times_high((sum.coarse << (coarse - 4)) + (lacking >> 4), reciprocal);
+                const simd::Words rest = low - quotient * divisor;
+                (quotient + (at_least(rest, simd::Words::all(divisor)) & one)).narrow().store(dst + x, count);
+            });
     }
     /// A running sum of 32 bits.
     void across_one_by_one(int width, Gray8* dst) const {
