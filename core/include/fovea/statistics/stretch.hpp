@@ -99,8 +99,8 @@ struct Stretch16 {
 
     Stretch16(std::int32_t least, std::uint32_t range)
         : lowest(static_cast<std::uint32_t>(least)), raise(leading_zeros(range) - 16) {
-        const std::uint32_t raised = range << raise;
-        reciprocal = static_cast<std::uint32_t>(((std::uint64_t{255} << 39) + raised - 1) / raised);
+        const std::uint32_t divisor = range << raise;
+        reciprocal = static_cast<std::uint32_t>(((std::uint64_t{255} << 39) + divisor - 1) / divisor);
     }
 
     /// The lower half of the reciprocal counts whole, and one for what its product loses.
