@@ -132,6 +132,8 @@ inline void number_integer(Workspace&, Digest& digest) {
                    floor_modulo(c, positive), round_divide(c >> 1, positive),
                    round_divide<std::int64_t>(a >> 1, positive));
         digest.add(leading_zeros(magnitude(a)), leading_zeros(magnitude(c)));
+        digest.add(trailing_zeros(magnitude(a) | std::uint64_t{1} << i % 64),
+                   trailing_zeros(magnitude(c) | std::uint32_t{1} << i % 32));
     }
 }
 

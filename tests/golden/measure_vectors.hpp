@@ -44,11 +44,11 @@ void put(Digest& digest, const Consensus<Model>& consensus) {
 
 inline void segment_runs(Workspace& work, Digest& digest) {
     Arena arena(work.scratch_span());
-    RunRow row(arena.take<Run>(212));
+    RunRow row(arena.take_unset<Run>(212));
     RunRow narrow(arena.take<Run>(10));
     const auto add_runs = [&](RunRow& runs, const Gray8* pixels, int width) {
         digest.add(runs.split(pixels, width));
-        digest.add(runs.count());
+        digest.add(runs.count(), runs.first_of(true), runs.first_of(false));
         for (int i = 0; i < runs.count(); ++i) {
             runs[i].label = static_cast<RunLabel>(i % 3 == 0 ? no_label : i);
             digest.add(runs[i].first, runs[i].label, runs.end(i), runs.is_region(i));
