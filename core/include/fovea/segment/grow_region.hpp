@@ -74,6 +74,18 @@ inline PixelWord bytes_at_least(PixelWord a, PixelWord b) {
 }
 inline PixelWord all_pixels(Gray8 level) { return (~PixelWord{0} / 255) * level; }
 
+/// value where a mask of 0 and 255 is 255, from pixel first up to end.
+inline void fill_where(const Gray8* mask, Gray8 value, int first, int end, Gray8* row) {
+    int x = first;
+    for (; x + word_pixels <= end; x += word_pixels) {
+        const PixelWord filled = load_pixels(mask + x);
+        const PixelWord pixels = (load_pixels(row + x) & ~filled) | (all_pixels(value) & filled);
+        std::memcpy(row + x, &pixels, sizeof pixels);
+    }
+    for (; x < end; ++x)
+        if (mask[x] != 0) row[x] = value;
+}
+
 /// A row of the image and of the mask of what is filled, and the levels that belong.
 struct GrowingRow {
     const Gray8* src;
@@ -222,12 +234,8 @@ inline Result<RegionOf<FirstMoments>> flood_fill(ImageView<Gray8> image, Point s
     const Gray8 old = image(seed.x, seed.y);
     const auto region = grow_region(image, seed, old, old, connectivity, rest, mask);
     if (!region) return region;
-    for (int y = region->box.y; y <= region->box.bottom(); ++y) {
-        const Gray8* filled = mask.row(y);
-        Gray8* row = image.row(y);
-        // Every pixel is written, so that many are at once.
-        for (int x = region->box.x; x <= region->box.right(); ++x) row[x] = filled[x] != 0 ? value : row[x];
-    }
+    for (int y = region->box.y; y <= region->box.bottom(); ++y)
+        detail::fill_where(mask.row(y), value, region->box.x, region->box.right() + 1, image.row(y));
     return region;
 }
 
