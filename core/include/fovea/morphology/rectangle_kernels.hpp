@@ -74,9 +74,9 @@ inline constexpr int most_rows_together = simd::lanes == 4 ? 4 : 8;
 
 /// The extremes of Rows windows of height rows, each a row below the one before: put(i, extreme) for the
 /// window whose uppermost row is load(i). What all windows have in common is computed once, so a row costs
-/// height / Rows + 2 comparisons. Rows is at most height.
-template <class Extreme, int Rows, class Load, class Put>
-[[gnu::always_inline]] inline void extremes_down(int height, Load load, Put put) {
+/// height / Rows + 2 comparisons. Rows is at most height, which may be a constant.
+template <class Extreme, int Rows, class Height, class Load, class Put>
+[[gnu::always_inline]] inline void extremes_down(Height height, Load load, Put put) {
     simd::Bytes
         upper[static_cast<std::size_t>(Rows)];  // of rows i.. down to the lowest that all windows have
     simd::Bytes common = load(Rows - 1);
@@ -100,8 +100,8 @@ template <class Extreme, int Rows, class Load, class Put>
 
 /// The same for whole rows: row_at(i) is a row of the windows, out(i) where the i-th result begins. What
 /// stands behind a row's end in a line may be written, in an image not.
-template <class Extreme, int Rows, class RowAt, class Out>
-[[gnu::always_inline]] inline void rows_down(int height, int width, RowAt row_at, Out out) {
+template <class Extreme, int Rows, class Height, class RowAt, class Out>
+[[gnu::always_inline]] inline void rows_down(Height height, int width, RowAt row_at, Out out) {
     int x = 0;
     for (; x + simd::lanes <= width; x += simd::lanes)
         extremes_down<Extreme, Rows>(
@@ -289,9 +289,9 @@ private:
     bool is_shared_ = false;  ///< whether shared_ holds what the next window needs
 };
 
-/// Rows first..last in groups of Rows, and what is left one by one.
-template <class Extreme, int Rows>
-void extreme_rows_together(ImageView<const Gray8> src, Size element, int first, int last,
+/// Rows first..last in groups of Rows, and what is left one by one; height is that of the element.
+template <class Extreme, int Rows, class Height>
+void extreme_rows_together(ImageView<const Gray8> src, Size element, Height height, int first, int last,
                            Span<std::uint8_t> scratch, ImageView<Gray8> dst) {
     const int width = src.width();
     const int reach = element.height / 2;
@@ -304,7 +304,7 @@ void extreme_rows_together(ImageView<const Gray8> src, Size element, int first, 
         Gray8* out[static_cast<std::size_t>(count)];
         for (int i = 0; i < count; ++i) out[i] = three ? lines[i].pixels() : dst.row(y - first + i);
         const auto down = [&](auto row_at) {
-            rows_down<Extreme, count>(element.height, width, row_at, [&](int i) { return out[i]; });
+            rows_down<Extreme, count>(height, width, row_at, [&](int i) { return out[i]; });
         };
         if (y >= reach && y + count - 1 + reach < src.height()) {
             const Gray8* top = src.row(y - reach);
@@ -334,14 +334,18 @@ template <class Extreme>
 void extreme_rows(ImageView<const Gray8> src, Size element, int first, int last, Span<std::uint8_t> scratch,
                   ImageView<Gray8> dst) {
     FOVEA_ASSERT(last - first < dst.height() && scratch.size() >= 2 * byte_line_scratch(src.width()));
-    if (element.height == 1)
-        extreme_rows_together<Extreme, 1>(src, element, first, last, scratch, dst);
-    else if (element.height < 5 || element.width == 3)
-        extreme_rows_together<Extreme, 2>(src, element, first, last, scratch, dst);
-    else if (element.height < most_rows_together)
-        extreme_rows_together<Extreme, 4>(src, element, first, last, scratch, dst);
+    const int height = element.height;
+    constexpr std::integral_constant<int, 3> three{};  // The most frequent one.
+    if (height == 1)
+        extreme_rows_together<Extreme, 1>(src, element, height, first, last, scratch, dst);
+    else if (height == three)
+        extreme_rows_together<Extreme, 2>(src, element, three, first, last, scratch, dst);
+    else if (height < 5 || element.width == 3)
+        extreme_rows_together<Extreme, 2>(src, element, height, first, last, scratch, dst);
+    else if (height < most_rows_together)
+        extreme_rows_together<Extreme, 4>(src, element, height, first, last, scratch, dst);
     else
-        extreme_rows_together<Extreme, most_rows_together>(src, element, first, last, scratch, dst);
+        extreme_rows_together<Extreme, most_rows_together>(src, element, height, first, last, scratch, dst);
 }
 
 template <class First, class Second>
