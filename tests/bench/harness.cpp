@@ -2,6 +2,7 @@
 //
 // Runs cases and prints what they took.
 #include <bench/harness.hpp>
+#include <bench/memory.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -98,8 +99,8 @@ Figures measured(const Case& one, Size size) {
         std::exit(2);
     }
     const auto bytes = static_cast<std::size_t>(row.moved_bytes() / 2);
-    std::vector<unsigned char> from(bytes, 1);
-    std::vector<unsigned char> to(bytes, 2);
+    const Bytes from(bytes, 1);
+    Bytes to(bytes, 2);
     columns.push_back({"memcpy", [&] {
                            std::memcpy(to.data(), from.data(), bytes);
                            consume(to);

@@ -57,9 +57,9 @@ struct Peer {};
 
 /// An input as a camera gives it: the part, with a colour cast where there is colour. The second input of an
 /// operator is the part seen a little later.
-inline std::vector<std::uint8_t> operator_picture(PixelKind kind, Size size, int number) {
+inline Bytes operator_picture(PixelKind kind, Size size, int number) {
     Picture<Gray8> gray = part(size);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size.area() * bytes_of(kind)));
+    Bytes bytes(static_cast<std::size_t>(size.area() * bytes_of(kind)));
     const int count = bytes_of(kind);
     std::size_t at = 0;
     for (int y = 0; y < size.height; ++y)
@@ -85,7 +85,7 @@ inline bool add_operator(int order, const std::string& name, Sizes sizes, const 
         for (int i = 0; i < op->parameter_count(); ++i)
             call.values[i] = static_cast<std::size_t>(i) < values.size() ? values[static_cast<std::size_t>(i)]
                                                                          : op->parameters[i].preset;
-        const auto image = [&](PixelKind kind, Size size, std::vector<std::uint8_t> pixels) {
+        const auto image = [&](PixelKind kind, Size size, Bytes pixels) {
             auto& kept = row.keep(std::move(pixels));
             return AnyImage{kept.data(), size, std::ptrdiff_t{size.width} * bytes_of(kind)};
         };

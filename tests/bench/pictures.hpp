@@ -5,22 +5,21 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include <fovea/base/random.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
+
+#include <bench/memory.hpp>
 #include <golden/plate.hpp>
 
 namespace fovea::bench {
 
-inline Span<std::uint8_t> span_of(std::vector<std::uint8_t>& bytes) {
+inline Span<std::uint8_t> span_of(Bytes& bytes) {
     return {bytes.data(), static_cast<std::ptrdiff_t>(bytes.size())};
 }
-inline std::vector<std::uint8_t> bytes(std::int64_t count) {
-    return std::vector<std::uint8_t>(static_cast<std::size_t>(count));
-}
+inline Bytes bytes(std::int64_t count) { return Bytes(static_cast<std::size_t>(count)); }
 
 /// An image that owns its pixels.
 template <class Pixel>
@@ -35,7 +34,7 @@ public:
 
 private:
     Size size_;
-    std::vector<Pixel> pixels_;
+    Memory<Pixel> pixels_;
 };
 
 /// The plate in the middle of an image, as large as fits well.

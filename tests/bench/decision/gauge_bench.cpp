@@ -13,7 +13,7 @@ namespace {
 
 struct Gauging {
     Picture<Gray8> image;
-    std::vector<std::uint8_t> scratch;
+    Bytes scratch;
     Recipe recipe;
     List<PartResult, 8> parts;
 };

@@ -20,7 +20,7 @@ struct Found {
     std::vector<EdgePoint> points = std::vector<EdgePoint>(40000);
     std::vector<PolarLine> lines = std::vector<PolarLine>(100);
     std::vector<LineSegment> segments = std::vector<LineSegment>(1000);
-    std::vector<std::uint8_t> scratch;
+    Bytes scratch;
     int point_count = 0;
     int line_count = 0;
     int segment_count = 0;
@@ -43,7 +43,7 @@ void must_be_ok(Status s) {
 /// The plate's outline and holes, and how many pixels they are.
 Picture<Gray8> edges_of(Picture<Gray8>& src, Size size) {
     Picture<Gray8> edges(size);
-    std::vector<std::uint8_t> scratch = bytes(canny_scratch(size));
+    Bytes scratch = bytes(canny_scratch(size));
     must_be_ok(canny(src.view(), 60, 150, Border::replicate, span_of(scratch), edges.view()));
     return edges;
 }

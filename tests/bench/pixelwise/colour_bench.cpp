@@ -89,7 +89,7 @@ struct Nv12 {
         chroma = {reinterpret_cast<ChromaPair*>(bytes.data() + size.area()), chroma_size(size), size.width};
     }
 
-    std::vector<std::uint8_t> bytes;
+    Bytes bytes;
     Picture<Rgb888> dst;
     ImageView<Gray8> luma;
     ImageView<ChromaPair> chroma;

@@ -20,7 +20,7 @@ constexpr LevelSet dark{128, true};
 struct Found {
     explicit Found(Size size) : picture(part(size)) {
         Picture<Gray8> binary(size);
-        std::vector<std::uint8_t> scratch = bytes(connected_components_scratch(size.width));
+        Bytes scratch = bytes(connected_components_scratch(size.width));
         ComponentOptions options;
         options.area_min = 1000;
         options.hole_area_min = 100;
