@@ -22,8 +22,6 @@
 namespace fovea::bench {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 [[maybe_unused]] std::string percent(std::size_t part, std::size_t whole) {
     return std::to_string((part * 100 + whole / 2) / whole) + " %";
 }
