@@ -26,7 +26,7 @@ namespace kernels {
 
 /// Pixels on their way to Lab.
 struct LabRun {
-    static constexpr int size = 4 * simd::lanes;
+    static constexpr int size = 2 * simd::lanes;
     std::int32_t red_green[size] = {};  ///< light: red in the lower half, green in the upper one
     std::int32_t blue[size] = {};
     std::int32_t xyz[3][size] = {};      ///< light, then two neighbours of the table of roots

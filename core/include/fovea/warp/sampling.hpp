@@ -90,7 +90,7 @@ public:
 
     void read(simd::PlaceRun& run, int count, simd::PlaceOrder order, Rgb888* dst) const {
         const int last = count - 1;
-        if (order == simd::PlaceOrder::along_a_line &&
+        if (order == simd::PlaceOrder::along_a_line && count > 0 &&
             source_.all_outside(run.x[0], run.y[0], run.x[last], run.y[last])) {
             for (int i = 0; i < count; ++i) dst[i] = sampling_.level;
             return;
