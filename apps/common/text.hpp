@@ -50,22 +50,30 @@ inline bool is_no_utf8(CodePoint read, Span<const char> text) {
     return read.value == replacement_character && string_of(text.first(read.bytes)) != "\xef\xbf\xbd";
 }
 
+/// True for the control characters of ASCII and of Latin 1, which terminals may obey.
+inline bool is_control(std::uint32_t code_point) {
+    return code_point < 0x20 || (code_point >= 0x7f && code_point < 0xa0);
+}
+
 /// True for UTF-8 without control characters: a name that stays on its line.
 inline bool printable(const std::string& text) {
     for (Span<const char> rest = span_of(text); !rest.empty();) {
         const CodePoint read = first_code_point(rest);
-        if (is_no_utf8(read, rest)) return false;
-        if (read.value < 0x20 || (read.value >= 0x7f && read.value < 0xa0)) return false;
+        if (is_no_utf8(read, rest) || is_control(read.value)) return false;
         rest = rest.from(read.bytes);
     }
     return true;
 }
 
-/// A text with question marks for its control characters, so that it stays on one line of a terminal.
-inline std::string one_line(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    return text;
+/// A text with question marks for its control characters and for what is no UTF-8, so that it is printable.
+inline std::string one_line(const std::string& text) {
+    std::string line;
+    for (Span<const char> rest = span_of(text); !rest.empty();) {
+        const CodePoint read = first_code_point(rest);
+        line += is_no_utf8(read, rest) || is_control(read.value) ? "?" : string_of(rest.first(read.bytes));
+        rest = rest.from(read.bytes);
+    }
+    return line;
 }
 
 /// At most so many bytes of a text, whole characters, with dots for the rest.

@@ -225,6 +225,9 @@ TEST(Shortened, CutsBetweenCharacters) {
 TEST(OneLine, ShowsTextAsItIsAndControlCharactersAsQuestionMarks) {
     EXPECT_EQ(apps::one_line("a/b c.png"), "a/b c.png");
     EXPECT_EQ(apps::one_line("a\nb\x1b[31m"), "a?b?[31m");
+    EXPECT_EQ(apps::one_line("\xc2\xb5m \xc2\x98 \x7f"), "\xc2\xb5m ? ?");  // C1: start of string
+    EXPECT_EQ(apps::one_line("a\xff\xe2\x82z"), "a??z");  // one for a sequence that ends early
+    EXPECT_EQ(apps::one_line(""), "");
 }
 
 }  // namespace
