@@ -40,13 +40,10 @@ using Longs [[gnu::vector_size(FOVEA_BYTES)]] = std::uint64_t;
 #endif
 }
 
-/// Vectors of 32 bits as their lower and upper halves of lanes of 64 bits, each in the lower half of one, and
-/// back again. An upper half is not empty.
+/// Every second of the 32-bit numbers, in the lower half of a lane of 64 bits: those of the lower halves,
+/// with the others above them, and those of the upper halves, with nothing above.
 [[gnu::always_inline]] inline Longs low_halves(Unsigned a) { return bits_as<Longs>(a); }
 [[gnu::always_inline]] inline Longs high_halves(Unsigned a) { return bits_as<Longs>(a) >> 32; }
-[[gnu::always_inline]] inline Unsigned joined_halves(Longs low, Longs high) {
-    return bits_as<Unsigned>((low & 0xffffffffu) | (high << 32));
-}
 
 /// In each lane of 32 bits, the lower half of it low and the upper one high, both held at -32768 and 32767.
 [[gnu::always_inline]] inline RawWords held_pairs(Ints low, Ints high) {

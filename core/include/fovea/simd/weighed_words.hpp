@@ -21,7 +21,8 @@ namespace simd {
 
 #if FOVEA_BYTES >= 8
 
-/// TripleWeights::mean() of a, b and c, which are below 256.
+/// TripleWeights::mean() of a, b and c, which are below 256. Where products come in pairs, the third one
+/// stands beside the rounding, 1 * 2^14.
 [[gnu::always_inline]] inline RawWords weigh_words(RawWords a, RawWords b, RawWords c,
                                                    TripleWeights weights) {
 #if FOVEA_BYTES == 32 && defined(__AVX2__)
@@ -39,7 +40,6 @@ namespace simd {
         _mm256_packs_epi32(means(_mm256_unpacklo_epi16(x, y), _mm256_unpacklo_epi16(z, one)),
                            means(_mm256_unpackhi_epi16(x, y), _mm256_unpackhi_epi16(z, one))));
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
-    // The third factor of a pair is multiplied beside the rounding, 2^14 * 1.
     const __m128i pair = _mm_set1_epi32(weights.first | weights.second << 16);
     const __m128i last = _mm_set1_epi32(weights.third | 1 << 30);
     const auto means = [&](__m128i ab, __m128i c1) {
