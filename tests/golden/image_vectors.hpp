@@ -203,7 +203,7 @@ inline void statistics_histogram(Workspace& work, Digest& digest) {
         digest.add(histogram_of(src, histogram));
         digest.add(histogram.total());
         for (int level = 0; level < Histogram::levels; ++level) digest.add(histogram[level]);
-        for (const std::uint32_t share : {0u, 1u, 1311u, 32768u, 64225u, whole_share, whole_share + 1})
+        for (const std::uint32_t share : {std::uint32_t{0}, std::uint32_t{1}, std::uint32_t{1311}, std::uint32_t{32768}, std::uint32_t{64225}, whole_share, whole_share + 1})
             digest.add(quantile(histogram, share));
         digest.add(otsu(histogram));
         // Counts of more than 2^26 pixels.

@@ -27,7 +27,7 @@ inline AnyImage operator_input(Workspace& work, int number, Size size, PixelKind
                 part ? static_cast<std::uint8_t>(smooth + (random_byte(random) & 15)) : random_byte(random);
         }
     if (part && kind == PixelKind::gray8 && size == Workspace::picture_size)
-        draw_plate(ImageView<Gray8>(first, size, row_bytes), Plate{});
+        put_part(work, ImageView<Gray8>(first, size, row_bytes));
     return {first, size, row_bytes};
 }
 

@@ -26,23 +26,23 @@ public:
 
     /// count elements, every one equal to T{}. The room must be there: it was checked.
     template <class T>
-    Span<T> take(std::ptrdiff_t count) {
+    Span<T> take(std::int64_t count) {
         const Span<T> elements = take_unset<T>(count);
         for (T& element : elements) element = T{};
         return elements;
     }
     /// The same with whatever the bytes hold, for elements that are written before they are read.
     template <class T>
-    Span<T> take_unset(std::ptrdiff_t count) {
+    Span<T> take_unset(std::int64_t count) {
         static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,
                       "an arena holds plain data");
         const auto address = reinterpret_cast<std::uintptr_t>(rest_.data());
-        const auto skip = static_cast<std::ptrdiff_t>((alignof(T) - address % alignof(T)) % alignof(T));
-        const std::ptrdiff_t bytes = count * static_cast<std::ptrdiff_t>(sizeof(T));
+        const auto skip = static_cast<int>((alignof(T) - address % alignof(T)) % alignof(T));
+        const std::int64_t bytes = count * static_cast<int>(sizeof(T));
         FOVEA_ASSERT(count >= 0 && skip + bytes <= rest_.size());
         T* first = reinterpret_cast<T*>(rest_.data() + skip);
         rest_ = rest_.from(skip + bytes);
-        return {first, count};
+        return {first, static_cast<std::ptrdiff_t>(count)};
     }
     /// What is left.
     Span<std::uint8_t> rest() const { return rest_; }

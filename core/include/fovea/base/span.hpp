@@ -41,13 +41,14 @@ public:
         FOVEA_ASSERT(index >= 0 && index < size_);
         return data_[index];
     }
-    constexpr Span first(std::ptrdiff_t count) const {
+    /// Counts of 64 bits, as operators tell their scratch, also where addresses have 32.
+    constexpr Span first(std::int64_t count) const {
         FOVEA_ASSERT(count >= 0 && count <= size_);
-        return {data_, count};
+        return {data_, static_cast<std::ptrdiff_t>(count)};
     }
-    constexpr Span from(std::ptrdiff_t start) const {
+    constexpr Span from(std::int64_t start) const {
         FOVEA_ASSERT(start >= 0 && start <= size_);
-        return {data_ + start, size_ - start};
+        return {data_ + static_cast<std::ptrdiff_t>(start), size_ - static_cast<std::ptrdiff_t>(start)};
     }
 
 private:

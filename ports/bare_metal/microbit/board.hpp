@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// BBC micro:bit (first version): nRF51822, Cortex-M0 at 16 MHz, 256 KiB of flash, 16 KiB of RAM.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/bare_metal/nrf51_uart.hpp>
+#include <fovea/bare_metal/polled_stream.hpp>
+#include <fovea/bare_metal/semihosting.hpp>
+
+namespace fovea::board {
+
+inline constexpr char name[] = "microbit";
+inline constexpr std::uint32_t clock_hz = 16'000'000;
+
+using Serial = bare_metal::PolledStream<bare_metal::Nrf51Uart>;
+
+/// The serial line, 115200 bits a second.
+inline Serial start_serial() {
+    Serial serial(bare_metal::Nrf51Uart(0x40002000));
+    serial.uart().start({24, 25}, 0x01D7E000);  // TX, RX; 115200
+    return serial;
+}
+
+[[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
+
+}  // namespace fovea::board

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// Arm's MPS2 with image AN385: Cortex-M3, 4 MiB for code and 4 MiB for data.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/bare_metal/cmsdk_uart.hpp>
+#include <fovea/bare_metal/polled_stream.hpp>
+#include <fovea/bare_metal/semihosting.hpp>
+
+namespace fovea::board {
+
+inline constexpr char name[] = "mps2_an385";
+inline constexpr std::uint32_t clock_hz = 25'000'000;
+
+using Serial = bare_metal::PolledStream<bare_metal::CmsdkUart>;
+
+/// The serial line, 115200 bits a second.
+inline Serial start_serial() {
+    Serial serial(bare_metal::CmsdkUart(0x40004000));
+    serial.uart().start(217);  // 25 MHz / 115200
+    return serial;
+}
+
+[[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
+
+}  // namespace fovea::board

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// Arm's MPS2 with image AN505: Cortex-M33, 4 MiB for code and 4 MiB for data. Addresses are
+// those of the secure state, in which the processor starts.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/bare_metal/cmsdk_uart.hpp>
+#include <fovea/bare_metal/polled_stream.hpp>
+#include <fovea/bare_metal/semihosting.hpp>
+
+namespace fovea::board {
+
+inline constexpr char name[] = "mps2_an505";
+inline constexpr std::uint32_t clock_hz = 20'000'000;
+
+using Serial = bare_metal::PolledStream<bare_metal::CmsdkUart>;
+
+/// The serial line, 115200 bits a second.
+inline Serial start_serial() {
+    Serial serial(bare_metal::CmsdkUart(0x50200000));
+    serial.uart().start(173);  // 20 MHz / 115200
+    return serial;
+}
+
+[[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
+
+}  // namespace fovea::board

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// SiFive E31 chip on a HiFive1-like board: RV32IMAC, flash beyond 4 MiB, 16 KiB of RAM.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/bare_metal/polled_stream.hpp>
+#include <fovea/bare_metal/semihosting.hpp>
+#include <fovea/bare_metal/sifive_uart.hpp>
+
+namespace fovea::board {
+
+inline constexpr char name[] = "sifive_e";
+inline constexpr std::uint32_t clock_hz = 16'000'000;
+
+using Serial = bare_metal::PolledStream<bare_metal::SifiveUart>;
+
+/// The serial line, 115200 bits a second.
+inline Serial start_serial() {
+    Serial serial(bare_metal::SifiveUart(0x10013000));
+    serial.uart().start(138);  // 16 MHz / 115200 - 1
+    return serial;
+}
+
+[[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
+
+}  // namespace fovea::board

@@ -1,0 +1,15 @@
+# The programs for emulated chips, a board each: golden_<board>.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "cortex-m0")
+  fovea_add_board(roomy_microbit FOLDER ${PROJECT_SOURCE_DIR}/ports/bare_metal/microbit
+                  MEMORY ${CMAKE_CURRENT_SOURCE_DIR}/roomy_microbit.ld)
+endif()
+
+# Compiled once for the boards of a processor that have room for it.
+set(roomy_boards roomy_microbit mps2_an385 mps2_an386 mps2_an500 mps2_an505 mps3_an547 rv32_virt)
+foreach(board IN LISTS fovea_boards ITEMS roomy_microbit)
+  if(TARGET fovea_board_${board} AND board IN_LIST roomy_boards)
+    add_executable(golden_${board} golden.cpp)
+    target_include_directories(golden_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_link_libraries(golden_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
+  endif()
+endforeach()
