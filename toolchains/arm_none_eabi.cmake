@@ -11,7 +11,7 @@ if("${FOVEA_CHIP_COMPILER}" STREQUAL "clang")
   set(CMAKE_CXX_COMPILER clang++)
   execute_process(COMMAND arm-none-eabi-gcc -dumpversion OUTPUT_VARIABLE fovea_gcc OUTPUT_STRIP_TRAILING_WHITESPACE)
   set(fovea_headers /usr/include/newlib/c++/${fovea_gcc})
-  set(fovea_compiler --target=${fovea_clang_target} -nostdinc++ -isystem ${fovea_headers}
+  set(fovea_compiler --target=${fovea_clang_target} ${fovea_clang_options} -nostdinc++ -isystem ${fovea_headers}
       -isystem ${fovea_headers}/arm-none-eabi -isystem /usr/include/newlib)
   string(JOIN " " CMAKE_CXX_LINK_EXECUTABLE arm-none-eabi-g++ ${fovea_processor}
          "-mthumb <LINK_FLAGS> <OBJECTS> -o <TARGET> <LINK_LIBRARIES>")
