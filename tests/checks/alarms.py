@@ -476,6 +476,64 @@ def target_binary(folder):
                                 "riscv64-linux-gnu-g++"])
 
 
+# A chip's program that is as large as a fault.
+CHIP = """#include <board.hpp>
+#include <target/print.hpp>
+extern "C" {
+[[gnu::noinline]] void fovea_region_begin() { __asm volatile(""); }
+[[gnu::noinline]] void fovea_region_end() { __asm volatile(""); }
+void* malloc(unsigned);
+}
+int deeper(volatile int* above) { volatile int here[64]; here[0] = above[0]; return deeper(here) + here[0]; }
+int main() {
+    auto serial = fovea::board::start_serial();
+    fovea::target::print(serial, BITS);
+    fovea_region_begin();
+    for (volatile int i = 0; i < TURNS; ++i) {}
+    fovea_region_end();
+    fovea::target::print(serial, "= turns\\n");
+    volatile int bottom = 0;
+    FAULT;
+    return bottom;
+}
+"""
+
+
+def target_chip(folder):
+    """chip.py must see other bits, another count and a fault; what wants a library must not link."""
+    port = PROJECT / "ports/bare_metal"
+    golden = write(folder, {"chip.cpp": CHIP, "golden.txt": "bits 00000001\n"}) / "golden.txt"
+    includes = " ".join(f"-I{PROJECT / path}" for path in ("core/include", "hal/include", "ports/bare_metal/include",
+                                                           "ports/bare_metal/microbit", "tests"))
+    plugin = folder / "count.so"
+    subprocess.run(["g++", "-std=c++17", "-shared", "-fPIC", PROJECT / "tests/target/count_instructions.cpp", "-o", plugin],
+                   check=True)
+
+    def chip(name, bits="bits 00000001", turns=10, fault="", options=""):
+        return ["sh", "-c",
+                f"cd {folder} && arm-none-eabi-g++ -std=c++17 -mcpu=cortex-m0 -mthumb -Os -fno-exceptions -fno-rtti "
+                f"-fno-tree-loop-distribute-patterns {includes} '-DBITS=\"{bits}\\n\"' -DTURNS={turns} '-DFAULT={fault}' "
+                f"chip.cpp {port}/startup/start.cpp {port}/startup/cortex_m.cpp {port}/startup/memory.cpp -nostdlib -static "
+                f"-Wl,--gc-sections -T {port}/microbit/memory.ld -T {port}/startup/sections.ld -lgcc -o {name} && "
+                f"{PROJECT}/tests/target/chip.py lane microbit {name} {plugin} --golden {golden} --tables {folder} {options}"]
+
+    yield "a table", chip("table", options="--write"), None
+    yield "the same", chip("same"), None
+    yield "other bits", chip("bits", bits="bits 00000002"), "computes other bits"
+    yield "bits that are missing", chip("missing", bits="# bits"), "computes other bits"
+    yield "more instructions", chip("more", turns=11), "takes other numbers"
+    yield "fewer instructions", chip("fewer", turns=9), "takes other numbers"
+    yield "growth without a reason", chip("reason", turns=11, options="--write"), "have grown"
+    yield "growth with a reason", chip("reason", turns=11, options="--write --because planted"), None
+    yield "a wild pointer", chip("wild", fault="*reinterpret_cast<volatile int*>(0x90000000u) = 1"), "ended with 99"
+    yield "a stack that is too deep", chip("deep", fault="bottom = deeper(&bottom)"), "ended with -6"
+    yield "an exit code", chip("code", fault="bottom = 3"), "ended with 3"
+    yield "a heap", chip("heap", fault="bottom = malloc(4) == nullptr"), "undefined reference to `malloc'"
+
+
+target_alarms = [target_binary, target_chip]
+
+
 # ---- All of them --------------------------------------------------------------------------
 
 def ring(function, folder):
@@ -496,11 +554,11 @@ def ring(function, folder):
 
 def main():
     names = sys.argv[1:]
-    chosen = [function for function in [*alarms, target_binary] if function.__name__ in names]
+    chosen = [function for function in [*alarms, *target_alarms] if function.__name__ in names]
     if names in ([], ["host"], ["target"]):
-        chosen = [target_binary] if names == ["target"] else alarms
+        chosen = target_alarms if names == ["target"] else alarms
     elif len(chosen) != len(names):
-        sys.exit(f"alarms: there are {', '.join(function.__name__ for function in [*alarms, target_binary])}")
+        sys.exit(f"alarms: there are {', '.join(function.__name__ for function in [*alarms, *target_alarms])}")
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         folders = [Path(folder) / function.__name__ for function in chosen]
         for place in folders:

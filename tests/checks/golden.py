@@ -4,7 +4,7 @@
 usage: golden.py [--root ROOT]              each function in the Interface part of a core header is called by
                                             tests/golden/*_vectors.hpp or by an entry of the catalogue, or stands
                                             in tests/golden/without_vector.txt
-       golden.py --table FILE COMMAND...    the command prints the table in FILE
+       golden.py --table FILE COMMAND...    the command prints the table in FILE; lines that begin with # are remarks
 """
 import argparse
 import difflib
@@ -49,9 +49,10 @@ def check_table(table, command):
     if run.returncode != 0:
         print(f"golden: {' '.join(command)} ended with {run.returncode}\n{run.stderr}")
         return 1
-    printed = run.stdout.split("\n")[:-1]
+    printed = [line for line in run.stdout.split("\n")[:-1] if not line.startswith("#")]
+    remarks = [line[2:] for line in run.stdout.split("\n") if line.startswith("# ")]
     different = [line for line in difflib.unified_diff(expected, printed, table, "computed here", n=0, lineterm="")]
-    print("\n".join(different) if different else f"golden: {len(printed)} checksums as in the table")
+    print("\n".join(different) if different else "; ".join([f"golden: {len(printed)} lines as in the table", *remarks]))
     if different:
         print("golden: the bits differ")
     return 1 if different or not printed else 0

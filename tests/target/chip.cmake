@@ -1,15 +1,30 @@
-# The programs for emulated chips, a board each: golden_<board>.
+# The programs for emulated chips, a board each: golden_<board> where there is room, lines_<board> on all of them.
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "cortex-m0")
   fovea_add_board(roomy_microbit FOLDER ${PROJECT_SOURCE_DIR}/ports/bare_metal/microbit
                   MEMORY ${CMAKE_CURRENT_SOURCE_DIR}/roomy_microbit.ld)
 endif()
 
-# Compiled once for the boards of a processor that have room for it.
+# The levels of optimisation that the host and the boards with Linux do not have, each somewhere.
+set(golden_level -O2)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "cortex-m0")
+  set(golden_level -Os)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "cortex-m4")
+  set(golden_level -O3)
+endif()
+
+# Of the boards of a processor those that have room for it.
 set(roomy_boards roomy_microbit mps2_an385 mps2_an386 mps2_an500 mps2_an505 mps3_an547 rv32_virt)
 foreach(board IN LISTS fovea_boards ITEMS roomy_microbit)
   if(TARGET fovea_board_${board} AND board IN_LIST roomy_boards)
     add_executable(golden_${board} golden.cpp)
     target_include_directories(golden_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_compile_options(golden_${board} PRIVATE ${golden_level})
     target_link_libraries(golden_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
   endif()
+endforeach()
+
+foreach(board IN LISTS fovea_boards)
+  add_executable(lines_${board} lines.cpp)
+  target_include_directories(lines_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(lines_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
 endforeach()

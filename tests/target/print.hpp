@@ -26,12 +26,15 @@ void print_hexadecimal(Serial& serial, std::uint32_t number) {
     print(serial, digits);
 }
 
+/// A whole number of 64 bits.
 template <class Serial>
-void print_number(Serial& serial, std::uint32_t number) {
-    char digits[11] = {};
-    int first = 10;
-    do digits[--first] = static_cast<char>('0' + number % 10);
-    while ((number /= 10) != 0);
+void print_long(Serial& serial, std::int64_t number) {
+    char digits[21] = {};
+    int first = 20;
+    auto rest = number < 0 ? 0 - static_cast<std::uint64_t>(number) : static_cast<std::uint64_t>(number);
+    do digits[--first] = static_cast<char>('0' + rest % 10);
+    while ((rest /= 10) != 0);
+    if (number < 0) digits[--first] = '-';
     print(serial, digits + first);
 }
 
