@@ -198,13 +198,13 @@ inline void pixelwise_to_gray(Workspace& work, Digest& digest) {
 // ---- statistics ---------------------------------------------------------------------------
 
 inline void statistics_histogram(Workspace& work, Digest& digest) {
+    constexpr std::uint32_t shares[] = {0, 1, 1311, 32768, 64225, whole_share, whole_share + 1};
     Histogram histogram;
     for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8>) {
         digest.add(histogram_of(src, histogram));
         digest.add(histogram.total());
         for (int level = 0; level < Histogram::levels; ++level) digest.add(histogram[level]);
-        for (const std::uint32_t share : {std::uint32_t{0}, std::uint32_t{1}, std::uint32_t{1311}, std::uint32_t{32768}, std::uint32_t{64225}, whole_share, whole_share + 1})
-            digest.add(quantile(histogram, share));
+        for (const std::uint32_t share : shares) digest.add(quantile(histogram, share));
         digest.add(otsu(histogram));
         // Counts of more than 2^26 pixels.
         for (int i = 0; i < 30; ++i) histogram.add_row(src.row(0), src.width());

@@ -46,7 +46,8 @@ struct CostRoom {
 
     template <class Pixel>
     ImageView<Pixel> view(int number) {
-        return {reinterpret_cast<Pixel*>(image[number]), size, std::ptrdiff_t{size.width} * static_cast<int>(sizeof(Pixel))};
+        return {reinterpret_cast<Pixel*>(image[number]), size,
+                std::ptrdiff_t{size.width} * static_cast<int>(sizeof(Pixel))};
     }
 };
 
@@ -74,14 +75,16 @@ void cost_of(const char* name, Tell tell, Run run) {
 
 /// An entry of the catalogue; the first values in place of its presets.
 template <class Tell>
-void cost_of_operator(CostRoom& room, const Operator& op, const char* name, Span<const int> values, Tell tell) {
+void cost_of_operator(CostRoom& room, const Operator& op, const char* name, Span<const int> values,
+                      Tell tell) {
     OperatorCall call;
     for (int i = 0; i < op.parameter_count(); ++i)
         call.values[i] = i < values.size() ? values[i] : op.parameters[i].preset;
     for (int i = 0; i < op.input_count(); ++i) {
         const int bytes = bytes_of(op.inputs[i]);
         call.inputs[i] = {room.image[i], room.size, std::ptrdiff_t{room.size.width} * bytes};
-        put_discs({room.image[i], {room.size.width * bytes, room.size.height}, call.inputs[i].stride_bytes}, false);
+        put_discs({room.image[i], {room.size.width * bytes, room.size.height}, call.inputs[i].stride_bytes},
+                  false);
     }
     const Size out = op.size_for(room.size, call.values);
     const std::int64_t scratch = op.scratch_for(room.size, call.values);
@@ -114,18 +117,20 @@ void costs_of_answers(CostRoom& room, Tell tell) {
 
     const std::int64_t stride = room.size.width / 32;
     const auto bits = [&](int number) {
-        return *bit_view_over<BitWord>(
-            {reinterpret_cast<BitWord*>(room.image[number]), static_cast<std::ptrdiff_t>(stride * room.size.height)},
-            room.size, static_cast<std::ptrdiff_t>(stride));
+        return *bit_view_over<BitWord>({reinterpret_cast<BitWord*>(room.image[number]),
+                                        static_cast<std::ptrdiff_t>(stride * room.size.height)},
+                                       room.size, static_cast<std::ptrdiff_t>(stride));
     };
     const BitView<BitWord> packed = bits(1);
-    const Span<BitWord> words(reinterpret_cast<BitWord*>(room.scratch), bit_erode_scratch(room.size));
+    const Span<BitWord> words(reinterpret_cast<BitWord*>(room.scratch),
+                              static_cast<std::ptrdiff_t>(bit_erode_scratch(room.size)));
     cost_of("pack_bits", tell, [&] { return ok(pack_bits(gray, 128, packed)); });
     cost_of("erode bits 3x3", tell, [&] { return ok(erode(packed, {3, 3}, words, bits(2))); });
     cost_of("dilate bits 3x3", tell, [&] { return ok(dilate(packed, {3, 3}, words, bits(2))); });
 
     BinaryMoments moments;
-    auto program = stream(stages::gaussian_3x3, stages::sobel_magnitude, stages::threshold{40}, into(moments));
+    auto program =
+        stream(stages::gaussian_3x3, stages::sobel_magnitude, stages::threshold{40}, into(moments));
     cost_of("stream: gaussian_3x3, sobel_magnitude, threshold, moments", tell,
             [&] { return ok(program.run(gray, Border::replicate, scratch)); });
 }
@@ -141,8 +146,10 @@ void for_each_cost(CostRoom& room, Tell tell) {
         int values[2];
     };
     constexpr Variant variants[] = {
-        {"erode", "erode 5x5", {5, 5}},          {"erode", "erode 11x11", {11, 11}},
-        {"bilateral", "bilateral, radius 1", {1}}, {"adaptive_threshold", "adaptive_threshold 3x3", {3, 5}},
+        {"erode", "erode 5x5", {5, 5}},
+        {"erode", "erode 11x11", {11, 11}},
+        {"bilateral", "bilateral, radius 1", {1}},
+        {"adaptive_threshold", "adaptive_threshold 3x3", {3, 5}},
         {"resize_bilinear", "resize_bilinear to half", {160, 120}},
         {"resize_area", "resize_area to half", {160, 120}},
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A plugin of QEMU 7.2 (plugin interface 1): how many instructions a guest executes between fovea_region_begin() and
-// fovea_region_end(), a line a region. Exact and the same in every run.
+// A plugin of QEMU 7.2 (plugin interface 1): how many instructions a guest executes between
+// fovea_region_begin() and fovea_region_end(), a line a region. Exact and the same in every run.
 //   qemu-system-arm ... -plugin count_instructions.so,out=FILE
 // Debian has no header for plugins, so the calls of the interface that are used here are declared here.
 #include <cinttypes>
@@ -66,8 +66,8 @@ void write_regions(PluginId, void*) {
 
 }  // namespace
 
-extern "C" [[gnu::visibility("default"), gnu::used]] int qemu_plugin_install(PluginId id, const PluginInfo*, int count,
-                                                                          char** arguments) {
+extern "C" [[gnu::visibility("default"), gnu::used]] int qemu_plugin_install(PluginId id, const PluginInfo*,
+                                                                             int count, char** arguments) {
     for (int i = 0; i < count; ++i)
         if (std::strncmp(arguments[i], "out=", 4) == 0)
             std::snprintf(out_path, sizeof out_path, "%s", arguments[i] + 4);

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include <board.hpp>
-#include <fovea/base/span.hpp>
 #include <fovea/bare_metal/memory_layout.hpp>
+#include <fovea/base/span.hpp>
 #include <golden/vectors.hpp>
 #include <target/costs.hpp>
 #include <target/print.hpp>

@@ -30,7 +30,8 @@ int main() {
         gauge.measure(
             [frame](auto& program, Span<std::uint8_t> scratch) {
                 target::LineScene scene(frame);
-                if (Status s = program.start(scene.size, Border::replicate, scratch); s != Status::ok) return s;
+                if (Status s = program.start(scene.size, Border::replicate, scratch); s != Status::ok)
+                    return s;
                 while (!program.complete()) {
                     scene.take(line);
                     if (Status s = program.push(line); s != Status::ok) return s;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Frames of 640x480 that are never in memory: a scene gives one line after the other, a stream smooths, cuts and
-// labels them, and what it finds is told in numbers. A frame at hand must give the same.
+// Frames of 640x480 that are never in memory: a scene gives one line after the other, a stream smooths, cuts
+// and labels them, and what it finds is told in numbers. A frame at hand must give the same.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ public:
     static constexpr Size size{640, 480};
     static constexpr int frames = 3;
 
-    explicit LineScene(int frame) : run_(12 - 2 * frame), rise_(5 + 3 * frame), random_(static_cast<unsigned>(40 + frame)) {}
+    explicit LineScene(int frame)
+        : run_(12 - 2 * frame), rise_(5 + 3 * frame), random_(static_cast<unsigned>(40 + frame)) {}
 
     /// The next line, from the top.
     void take(Gray8* line) {
@@ -67,16 +68,17 @@ struct LineGauge {
         large.hole_area_min = 200;
         ComponentsAccumulator components(large, Span<std::uint8_t>(of_components), regions, holes);
         MeanAndVarianceAccumulator mean;
-        auto program = stream(stages::gaussian_3x3, tap(mean), stages::threshold_inverse{128}, into(components));
+        auto program =
+            stream(stages::gaussian_3x3, tap(mean), stages::threshold_inverse{128}, into(components));
         Status status = feed(program, Span<std::uint8_t>(of_stream));
         if (status == Status::ok) status = components.finish();
         print(describe(status));
         for (const Region& part : regions.view()) {
             print(" part");
-            for (const std::int64_t number : {part.moments.m00, part.moments.m10, part.moments.m01, part.moments.m20,
-                                              part.moments.m11, part.moments.m02, std::int64_t{part.box.x},
-                                              std::int64_t{part.box.y}, std::int64_t{part.box.width},
-                                              std::int64_t{part.box.height}})
+            for (const std::int64_t number :
+                 {part.moments.m00, part.moments.m10, part.moments.m01, part.moments.m20, part.moments.m11,
+                  part.moments.m02, std::int64_t{part.box.x}, std::int64_t{part.box.y},
+                  std::int64_t{part.box.width}, std::int64_t{part.box.height}})
                 print(number);
         }
         for (const Hole& hole : holes.view()) {

@@ -5,10 +5,13 @@
 
 #include <cstdint>
 
+#include <fovea/bare_metal/active_level.hpp>
 #include <fovea/bare_metal/pl011_uart.hpp>
+#include <fovea/bare_metal/pl061_pin.hpp>
 #include <fovea/bare_metal/polled_stream.hpp>
 #include <fovea/bare_metal/register.hpp>
 #include <fovea/bare_metal/semihosting.hpp>
+#include <fovea/bare_metal/systick.hpp>
 
 namespace fovea::board {
 
@@ -28,6 +31,16 @@ inline Serial start_serial() {
     serial.uart().start(434);  // 64 * 12.5 MHz / (16 * 115200)
     return serial;
 }
+
+using Clock = bare_metal::Systick;
+inline Clock start_clock() { return Clock(clock_hz); }
+
+/// Verdicts on PB0 and PB1, the trigger on PE2; active high.
+using OutputPin = bare_metal::Pl061Output;
+using TriggerPin = bare_metal::Pl061Input;
+inline OutputPin ok_pin() { return {0x40005000, 0, bare_metal::ActiveLevel::high}; }
+inline OutputPin not_ok_pin() { return {0x40005000, 1, bare_metal::ActiveLevel::high}; }
+inline TriggerPin trigger_pin() { return {0x40024000, 2, bare_metal::ActiveLevel::high}; }
 
 [[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
 

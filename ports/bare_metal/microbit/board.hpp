@@ -5,9 +5,12 @@
 
 #include <cstdint>
 
+#include <fovea/bare_metal/active_level.hpp>
+#include <fovea/bare_metal/nrf51_pin.hpp>
 #include <fovea/bare_metal/nrf51_uart.hpp>
 #include <fovea/bare_metal/polled_stream.hpp>
 #include <fovea/bare_metal/semihosting.hpp>
+#include <fovea/bare_metal/systick.hpp>
 
 namespace fovea::board {
 
@@ -22,6 +25,16 @@ inline Serial start_serial() {
     serial.uart().start({24, 25}, 0x01D7E000);  // TX, RX; 115200
     return serial;
 }
+
+using Clock = bare_metal::Systick;
+inline Clock start_clock() { return Clock(clock_hz); }
+
+/// Verdicts and trigger on pins 0, 1 and 2 of the edge connector (P0.03, P0.02, P0.01), active high.
+using OutputPin = bare_metal::Nrf51Output;
+using TriggerPin = bare_metal::Nrf51Input;
+inline OutputPin ok_pin() { return {3, bare_metal::ActiveLevel::high}; }
+inline OutputPin not_ok_pin() { return {2, bare_metal::ActiveLevel::high}; }
+inline TriggerPin trigger_pin() { return {1, bare_metal::ActiveLevel::high}; }
 
 [[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
 

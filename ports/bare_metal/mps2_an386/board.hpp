@@ -6,8 +6,10 @@
 #include <cstdint>
 
 #include <fovea/bare_metal/cmsdk_uart.hpp>
+#include <fovea/bare_metal/fpgaio_led.hpp>
 #include <fovea/bare_metal/polled_stream.hpp>
 #include <fovea/bare_metal/semihosting.hpp>
+#include <fovea/bare_metal/systick.hpp>
 
 namespace fovea::board {
 
@@ -22,6 +24,14 @@ inline Serial start_serial() {
     serial.uart().start(217);  // 25 MHz / 115200
     return serial;
 }
+
+using Clock = bare_metal::Systick;
+inline Clock start_clock() { return Clock(clock_hz); }
+
+/// Verdicts on the two user LEDs.
+using OutputPin = bare_metal::FpgaioLed;
+inline OutputPin ok_pin() { return {0x40028000, 0}; }
+inline OutputPin not_ok_pin() { return {0x40028000, 1}; }
 
 [[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The virtual RISC-V board of QEMU, as RV32IMAC: 16 MiB of its RAM, the first of which hold the code. No such board
-// can be bought; it has room for tables that no chip has.
+// The virtual RISC-V board of QEMU, as RV32IMAC: 16 MiB of its RAM, the first of which hold the code. No such
+// board can be bought; it has room for tables that no chip has.
 #pragma once
 
 #include <cstdint>
 
+#include <fovea/bare_metal/machine_timer.hpp>
 #include <fovea/bare_metal/ns16550_uart.hpp>
 #include <fovea/bare_metal/polled_stream.hpp>
 #include <fovea/bare_metal/register.hpp>
@@ -23,6 +24,9 @@ inline Serial start_serial() {
     serial.uart().start(1);
     return serial;
 }
+
+using Clock = bare_metal::MachineTimer;
+inline Clock start_clock() { return {0x0200BFF8, 10'000'000}; }
 
 /// Ends the emulation with an exit code, by a device that is there for it.
 [[noreturn]] inline void finish(int code) {

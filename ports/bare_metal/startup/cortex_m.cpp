@@ -6,6 +6,7 @@
 
 #include <fovea/bare_metal/memory_layout.hpp>
 #include <fovea/bare_metal/register.hpp>
+#include <fovea/bare_metal/systick.hpp>
 
 extern "C" {
 [[noreturn]] void fovea_start();
@@ -20,8 +21,8 @@ extern "C" {
     fovea_start();
 }
 
-// Interrupts of the processor, each with a name that a program can define.
-[[gnu::weak]] void fovea_systick() { fovea_fault(); }
+// The clock of systick.hpp; without one it never comes.
+void fovea_systick() { fovea::bare_metal::count_millisecond(); }
 }
 
 using Handler = void (*)();
@@ -35,7 +36,7 @@ extern "C" {
 extern const VectorTable fovea_vectors;
 [[gnu::section(".vectors"), gnu::used]] const VectorTable fovea_vectors = {
     fovea_stack_top,
-    {fovea_reset, fovea_fault, fovea_fault, fovea_fault, fovea_fault, fovea_fault, fovea_fault, fovea_fault, nullptr,
-     nullptr, fovea_fault, fovea_fault, nullptr, fovea_fault, fovea_systick},
+    {fovea_reset, fovea_fault, fovea_fault, fovea_fault, fovea_fault, fovea_fault, fovea_fault, fovea_fault,
+     nullptr, nullptr, fovea_fault, fovea_fault, nullptr, fovea_fault, fovea_systick},
 };
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The four functions of memory that a compiler calls of its own accord, and the names that Arm's run-time ABI has for
-// them (RTABI32, sec. 4.3.4). This file is compiled so that their bodies do not become calls of themselves.
+// The four functions of memory that a compiler calls of its own accord, and the names that Arm's run-time ABI
+// has for them (RTABI32, sec. 4.3.4). This file is compiled so that their bodies do not become calls of
+// themselves.
 #include <cstddef>
 #include <cstdint>
 

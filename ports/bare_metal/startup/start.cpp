@@ -21,7 +21,8 @@ int fovea_main() __asm("main");
     for (std::uint32_t* word = fovea_bss_start; word < fovea_bss_end;) *word++ = 0;
     // Painted up to a little below the frame of this function.
     const auto* frame = static_cast<std::uint32_t*>(__builtin_frame_address(0)) - 16;
-    for (volatile std::uint32_t* word = fovea_stack_limit; word < frame;) *word++ = fovea::bare_metal::stack_paint;
+    for (volatile std::uint32_t* word = fovea_stack_limit; word < frame;)
+        *word++ = fovea::bare_metal::stack_paint;
     fovea::board::finish(fovea_main());
 }
 }

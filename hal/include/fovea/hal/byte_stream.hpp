@@ -15,8 +15,8 @@ namespace fovea::hal {
 /// Takes and gives bytes as far as they go at once.
 ///   Result<int> read(Span<std::uint8_t> into)
 ///   Result<int> write(Span<const std::uint8_t> bytes)
-/// read: how many came, 0 where nothing has arrived. write: how many were taken, 0 where there is no room; the
-/// caller keeps the rest. Neither waits. io_error: the device refused; the port says why.
+/// read: how many came, 0 where nothing has arrived. write: how many were taken, 0 where there is no room;
+/// the caller keeps the rest. Neither waits. io_error: the device refused; the port says why.
 template <class T>
 using read_call = decltype(std::declval<T&>().read(Span<std::uint8_t>{}));
 template <class T>

@@ -33,7 +33,8 @@ public:
     }
 
 private:
-    static constexpr std::uintptr_t data = 0, interrupts = 1, queue_control = 2, line_control = 3, line_state = 5;
+    static constexpr std::uintptr_t data = 0, interrupts = 1, queue_control = 2, line_control = 3,
+                                    line_state = 5;
     std::uintptr_t base_;
 };
 

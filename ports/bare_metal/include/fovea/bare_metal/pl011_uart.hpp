@@ -33,8 +33,8 @@ public:
     }
 
 private:
-    static constexpr std::uintptr_t data = 0x00, flags = 0x18, integer_divider = 0x24, fraction_divider = 0x28,
-                                    line_control = 0x2C, control = 0x30;
+    static constexpr std::uintptr_t data = 0x00, flags = 0x18, integer_divider = 0x24,
+                                    fraction_divider = 0x28, line_control = 0x2C, control = 0x30;
     std::uintptr_t base_;
 };
 
