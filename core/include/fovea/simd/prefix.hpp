@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include <fovea/simd/isa.hpp>
 
@@ -64,6 +65,27 @@ namespace simd {
 
 #endif
 
+#if FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
+
+/// Four sums of integral_row(), after sum. One instruction adds a byte out of a word.
+[[gnu::always_inline]] inline std::uint32_t add_four_above(const std::uint8_t* src, std::uint32_t sum,
+                                                           const std::uint32_t* above, std::uint32_t* dst) {
+    std::uint32_t word;
+    std::memcpy(&word, src, sizeof word);
+    std::uint32_t sums[4];
+    asm("uxtab %0, %1, %2" : "=r"(sums[0]) : "r"(sum), "r"(word));
+    asm("uxtab %0, %1, %2, ror #8" : "=r"(sums[1]) : "r"(sums[0]), "r"(word));
+    asm("uxtab %0, %1, %2, ror #16" : "=r"(sums[2]) : "r"(sums[1]), "r"(word));
+    asm("uxtab %0, %1, %2, ror #24" : "=r"(sums[3]) : "r"(sums[2]), "r"(word));
+    dst[0] = above[0] + sums[0];
+    dst[1] = above[1] + sums[1];
+    dst[2] = above[2] + sums[2];
+    dst[3] = above[3] + sums[3];
+    return sums[3];
+}
+
+#endif
+
 /// dst[x] = above[x] + src[0] + ... + src[x], modulo 2^32.
 inline void integral_row(const std::uint8_t* src, int count, const std::uint32_t* above, std::uint32_t* dst) {
     int x = 0;
@@ -110,6 +132,11 @@ inline void integral_row(const std::uint8_t* src, int count, const std::uint32_t
         vst1q_u32(dst + x + 4, vaddq_u32(vld1q_u32(above + x + 4), high));
     }
     sum = vgetq_lane_u32(carry, 0);
+#elif FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
+    for (; x + 8 <= count; x += 8) {
+        sum = add_four_above(src + x, sum, above + x, dst + x);
+        sum = add_four_above(src + x + 4, sum, above + x + 4, dst + x + 4);
+    }
 #endif
     for (; x < count; ++x) {
         sum += src[x];

@@ -13,6 +13,12 @@
 #include <emmintrin.h>
 #elif FOVEA_BYTES >= 16 && defined(__ARM_NEON)
 #include <arm_neon.h>
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
+#elif FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
+#include <arm_acle.h>
+
+#include <cstring>
 #endif
 
 namespace fovea {
@@ -116,6 +122,61 @@ inline constexpr int sums_a_step = 16;
         squares = vpadalq_u16(squares, vmull_u8(vget_high_u8(bytes), vget_high_u8(bytes)));
     }
     return {sum_of_lanes(sum), sum_of_lanes(squares)};
+}
+
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+
+inline constexpr int sums_a_step = 16;
+
+[[gnu::always_inline]] inline std::uint64_t add_steps(const std::uint8_t* row, int count) {
+    std::uint32_t sum = 0;
+    for (int i = 0; i < count; i += 16) sum = vaddvaq_u8(sum, vldrbq_u8(row + i));
+    return sum;
+}
+[[gnu::always_inline]] inline ByteSums add_square_steps(const std::uint8_t* row, int count) {
+    std::uint32_t sum = 0;
+    std::uint32_t squares = 0;
+    for (int i = 0; i < count; i += 16) {
+        const uint8x16_t bytes = vldrbq_u8(row + i);
+        sum = vaddvaq_u8(sum, bytes);
+        squares = vmladavaq_u8(squares, bytes, bytes);
+    }
+    return {sum, squares};
+}
+
+#elif FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
+
+inline constexpr int sums_a_step = 8;
+
+[[gnu::always_inline]] inline std::uint64_t add_steps(const std::uint8_t* row, int count) {
+    std::uint32_t sum = 0;
+    for (int i = 0; i < count; i += 8) {
+        std::uint32_t words[2];
+        std::memcpy(words, row + i, sizeof words);
+        sum = __usada8(words[1], 0, __usada8(words[0], 0, sum));
+    }
+    return sum;
+}
+/// Adds a word's four bytes and their squares.
+[[gnu::always_inline]] inline void add_four(std::uint32_t word, std::uint32_t& sum, std::uint32_t& squares) {
+    std::uint32_t even;
+    std::uint32_t odd;
+    asm("uxtb16 %0, %1" : "=r"(even) : "r"(word));
+    asm("uxtb16 %0, %1, ror #8" : "=r"(odd) : "r"(word));
+    sum = __usada8(word, 0, sum);
+    asm("smlad %0, %1, %1, %0" : "+r"(squares) : "r"(even) : "cc");
+    asm("smlad %0, %1, %1, %0" : "+r"(squares) : "r"(odd) : "cc");
+}
+[[gnu::always_inline]] inline ByteSums add_square_steps(const std::uint8_t* row, int count) {
+    std::uint32_t sum = 0;
+    std::uint32_t squares = 0;
+    for (int i = 0; i < count; i += 8) {
+        std::uint32_t words[2];
+        std::memcpy(words, row + i, sizeof words);
+        add_four(words[0], sum, squares);
+        add_four(words[1], sum, squares);
+    }
+    return {sum, squares};
 }
 
 #else

@@ -42,13 +42,12 @@ public:
     /// Adds the pixels of a row.
     constexpr void add_row(const Gray8* row, int width) {
         int x = 0;
-        if constexpr (tables == 4)
-            for (; x + 4 <= width; x += 4) {
-                ++counts_[0][row[x]];
-                ++counts_[1][row[x + 1]];
-                ++counts_[2][row[x + 2]];
-                ++counts_[3][row[x + 3]];
-            }
+        for (; x + 4 <= width; x += 4) {
+            ++counts_[0][row[x]];
+            ++counts_[1 % tables][row[x + 1]];
+            ++counts_[2 % tables][row[x + 2]];
+            ++counts_[3 % tables][row[x + 3]];
+        }
         for (; x < width; ++x) ++counts_[0][row[x]];
     }
     /// Adds the pixels of a row whose mask is not 0.
