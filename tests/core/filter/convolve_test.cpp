@@ -132,6 +132,19 @@ TEST(Convolve, IsExactOnBothSidesOfTheLimitOf16Bits) {
             }
 }
 
+TEST(Convolve, IsExactForAnyDivisorOfWideSums) {
+    // Divisors whose reciprocal is exact for these sums, and others.
+    Random random(504);
+    GuardedImage<Gray8> src({256, 2});
+    for (int x = 0; x < 256; ++x) src(x, 0) = src(x, 1) = static_cast<Gray8>(x);
+    for (int round = 0; round < 400; ++round) {
+        const int most = round % 2 == 0 ? 32767 : 1000;
+        const auto weight = static_cast<std::int16_t>(random.between(258, most) * (round % 4 < 2 ? 1 : -1));
+        const int divisor = random.between(1, round % 3 == 0 ? 65535 : 1000);
+        expect_both(src, {{weight}, {1, 1}, divisor, random.between(-255, 255)}, Border::replicate);
+    }
+}
+
 TEST(Convolve, WithTheWeightsOfAnotherFilterIsThatFilter) {
     Random random(93);
     const Size size{71, 13};

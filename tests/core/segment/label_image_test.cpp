@@ -67,7 +67,7 @@ TEST(LabelImage, GoesThroughSpiralsAndCombs) {
     EXPECT_EQ(*label(spiral(61), Connectivity::four, wound), 1);
     EXPECT_EQ(*label(comb({81, 31}), Connectivity::four, teeth), 1);
     EXPECT_EQ(label(comb({81, 31}), Connectivity::four, teeth, 41).value(), 1);
-    EXPECT_EQ(label(comb({81, 31}), Connectivity::four, teeth, 38).status(), Status::capacity_exceeded);
+    EXPECT_EQ(label(comb({81, 31}), Connectivity::four, teeth, 30).status(), Status::capacity_exceeded);
 }
 
 TEST(LabelImage, SaysWhatIsWrong) {

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <fovea/base/arena.hpp>
 #include <fovea/base/random.hpp>
+#include <fovea/number/integer.hpp>
 #include <fovea/segment/runs.hpp>
 
 namespace fovea::test {
@@ -87,6 +89,122 @@ TEST(RunRow, SaysWhenThereAreMoreRunsThanRoom) {
         EXPECT_EQ(runs.split(alternating.data(), 150), size < 151 ? Status::capacity_exceeded : Status::ok)
             << size;
         EXPECT_EQ(wide[static_cast<std::size_t>(size)].label, 7) << size;
+    }
+}
+
+/// Labels from 1 on; the smaller one stands for both of two that are merged. As many as there is room for.
+struct Forest {
+    std::vector<RunLabel> parents;
+    std::size_t room = 1000;
+
+    RunLabel find(RunLabel label) const {
+        while (parents[label] != label) label = parents[label];
+        return label;
+    }
+    RunLabel merge(RunLabel a, RunLabel b) {
+        EXPECT_EQ(find(a), a);
+        EXPECT_EQ(find(b), b);
+        return parents[maximum(a, b)] = minimum(a, b);
+    }
+    RunLabel add(int) {
+        if (parents.size() == room) return no_label;
+        parents.push_back(static_cast<RunLabel>(parents.size()));
+        return parents.back();
+    }
+};
+
+struct OwnedRow {
+    std::vector<std::uint8_t> scratch;
+    RunRow runs;
+
+    explicit OwnedRow(const std::vector<std::uint8_t>& row)
+        : scratch(static_cast<std::size_t>(run_row_bytes(static_cast<int>(row.size())))) {
+        Arena arena({scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())});
+        runs = RunRow(arena, static_cast<int>(row.size()));
+        EXPECT_EQ(runs.split(row.data(), static_cast<int>(row.size())), Status::ok);
+    }
+};
+
+TEST(RunRow, KeepsTheBitsOfARestlessRow) {
+    std::vector<std::uint8_t> row(70);
+    row[1] = row[66] = row[69] = 3;
+    EXPECT_FALSE(OwnedRow(row).runs.has_bits());
+    for (std::size_t x = 20; x < 40; x += 2) row[x] = 1;
+    const OwnedRow owned(row);
+    ASSERT_TRUE(owned.runs.has_bits());
+    for (int x = 0; x < 70; ++x)
+        EXPECT_EQ(owned.runs.bits()[x / detail::bits_pixels] >> x % detail::bits_pixels & 1,
+                  row[static_cast<std::size_t>(x)] != 0);
+}
+
+TEST(LabelRuns, JoinsWhatTouchesByHand) {
+    const OwnedRow above({1, 0, 1, 1, 0, 0, 0, 0, 0, 0}), here({0, 1, 0, 0, 1, 0, 1, 0, 0, 0});
+    Forest forest{{0, 1, 2}};
+    above.runs[0].label = 1;
+    above.runs[2].label = 2;
+    ASSERT_TRUE(label_runs(above.runs, here.runs, true, 1, forest));
+    EXPECT_EQ(here.runs[1].label, 1);  // Corners of both.
+    EXPECT_EQ(forest.find(2), 1);
+    EXPECT_EQ(here.runs[3].label, 1);
+    EXPECT_EQ(here.runs[5].label, 3);
+    forest = {{0, 1, 2}};
+    ASSERT_TRUE(label_runs(above.runs, OwnedRow({0, 1, 0, 0, 1, 0, 1, 0, 0, 0}).runs, true, 0, forest));
+    EXPECT_EQ(forest.parents.size(), 6u);  // Without corners none touches.
+}
+
+TEST(LabelRuns, EqualsAskingEveryPairOfRuns) {
+    Random random(632);
+    for (int round = 0; round < 3000; ++round) {
+        const auto width = static_cast<std::size_t>(random.between(1, round % 3 == 0 ? 12 : 200));
+        const std::uint32_t longest = round % 2 == 0 ? 3 : 20;
+        const auto random_row = [&] {
+            std::vector<std::uint8_t> row;
+            for (bool region = random.below(2) == 0; row.size() < width; region = !region)
+                for (std::uint32_t n = 1 + random.below(longest); n > 0 && row.size() < width; --n)
+                    row.push_back(region ? 255 : 0);
+            return row;
+        };
+        const OwnedRow above(random_row()), here(random_row());
+        const bool regions = random.below(2) == 0;
+        const int reach = random.between(0, 1);
+        Forest forest{{0}}, expected;
+        for (int i = above.runs.first_of(regions); i < above.runs.count(); i += 2)
+            above.runs[i].label = random.below(3) == 0 && forest.parents.size() > 1
+                                      ? static_cast<RunLabel>(random.between(1, forest.add(0) - 1))
+                                      : forest.add(0);
+        expected = forest;
+        std::vector<RunLabel> labels;
+        for (int i = here.runs.first_of(regions); i < here.runs.count(); i += 2) {
+            RunLabel label = no_label;
+            for (int j = above.runs.first_of(regions); j < above.runs.count(); j += 2) {
+                if (above.runs[j].first >= here.runs.end(i) + reach) continue;
+                if (here.runs[i].first >= above.runs.end(j) + reach) continue;
+                const RunLabel root = expected.find(above.runs[j].label);
+                label = label == no_label || label == root ? root : expected.merge(label, root);
+            }
+            labels.push_back(label == no_label ? expected.add(0) : label);
+        }
+        const std::size_t size = expected.parents.size();
+        ASSERT_TRUE(label_runs(above.runs, here.runs, regions, reach, forest));
+        ASSERT_EQ(forest.parents.size(), size) << round;
+        for (std::size_t i = 1; i < size; ++i)
+            ASSERT_EQ(forest.find(static_cast<RunLabel>(i)), expected.find(static_cast<RunLabel>(i)));
+        for (std::size_t k = 0; k < labels.size(); ++k) {
+            const RunLabel label = here.runs[here.runs.first_of(regions) + 2 * static_cast<int>(k)].label;
+            ASSERT_EQ(forest.find(label), expected.find(labels[k])) << round;
+        }
+    }
+}
+
+TEST(LabelRuns, SaysWhenThereIsNoLabelLeft) {
+    for (const std::size_t width : {std::size_t{8}, std::size_t{100}}) {
+        std::vector<std::uint8_t> row(width);
+        row[0] = row[2] = row[4] = 1;
+        const OwnedRow none(std::vector<std::uint8_t>(width, 0)), here(row);
+        Forest forest{{0}, 3};
+        EXPECT_FALSE(label_runs(none.runs, here.runs, true, 1, forest));
+        forest = {{0}, 4};
+        EXPECT_TRUE(label_runs(none.runs, OwnedRow(row).runs, true, 1, forest));
     }
 }
 

@@ -108,6 +108,31 @@ void fill_ring(ImageView<Pixel> image, Point centre, std::int64_t outer, std::in
     }
 }
 
+/// The outline of a circle of radius 1 or more that lies wholly inside an image: an octant, and its mirror
+/// images.
+template <class Pixel>
+void draw_octants(ImageView<Pixel> image, Point centre, int radius, Pixel colour) {
+    // Of a column dx the outline has the farthest row with dy * (dy - 1) + dx * dx < radius * radius. excess
+    // is what the left side has more. Up to the diagonal dy falls by at most 1 from one column to the next.
+    std::int64_t excess = -std::int64_t{radius};
+    int dy = radius;
+    for (int dx = 0; dx <= dy; ++dx) {
+        for (int side = -1; side <= 1; side += 2) {
+            Pixel* const far = image.row(centre.y + side * dy) + centre.x;
+            Pixel* const near = image.row(centre.y + side * dx) + centre.x;
+            far[-dx] = far[dx] = colour;
+            near[-dy] = near[dy] = colour;
+        }
+        excess += 2 * dx + 1;
+        if (excess >= 0) excess -= 2 * --dy;
+    }
+}
+
+constexpr bool circle_inside(Size size, Point centre, std::int64_t radius) {
+    return centre.x - radius >= 0 && centre.x + radius < size.width && centre.y - radius >= 0 &&
+           centre.y + radius < size.height;
+}
+
 }  // namespace detail
 
 template <class Pixel>
@@ -116,6 +141,10 @@ Status draw_circle(ImageView<Pixel> image, Point centre, int radius, NonDeduced<
     if (image.empty()) return Status::empty_image;
     if (radius < 0 || radius > max_circle_radius) return Status::bad_argument;
     if (thickness < 1 || thickness > max_line_thickness) return Status::bad_argument;
+    if (thickness == 1 && radius > 0 && detail::circle_inside(image.size(), centre, radius)) {
+        detail::draw_octants<Pixel>(image, centre, radius, colour);
+        return Status::ok;
+    }
     detail::fill_ring<Pixel>(image, centre, std::int64_t{radius} + (thickness - 1) / 2,
                              std::int64_t{radius} - thickness / 2, colour);
     return Status::ok;

@@ -7,6 +7,7 @@
 // blended, and a shape drawn twice is the shape.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -65,21 +66,35 @@ namespace detail {
 template <class Pixel>
 class Paint {
 public:
-    explicit Paint(Pixel colour) {
-        for (Pixel& pixel : block_) pixel = colour;
+    explicit Paint(Pixel colour) : colour_(colour) {
+        Pixel pixels[size];
+        for (Pixel& pixel : pixels) pixel = colour;
+        std::memcpy(block_, pixels, sizeof block_);
     }
     void fill(Pixel* to, int count) const {
         if (count < size) {
-            for (int x = 0; x < count; ++x) to[x] = block_[0];
+            for (int x = 0; x < count; ++x) std::memcpy(to + x, &colour_, sizeof colour_);
             return;
         }
-        for (int x = 0; x < count - size; x += size) std::memcpy(to + x, block_, sizeof block_);
-        std::memcpy(to + count - size, block_, sizeof block_);
+        Pixel* const last = to + (count - size);
+        for (; to < last; to += size) put(to);
+        put(last);
     }
 
 private:
     static constexpr int size = 16;
-    Pixel block_[size];
+    void put(Pixel* to) const {
+        const auto bytes = reinterpret_cast<std::uint8_t*>(to);
+        for (std::size_t i = 0; i < sizeof(Pixel); ++i) {
+            const Bytes block = block_[i];
+            std::memcpy(bytes + size * i, &block, sizeof block);
+        }
+    }
+
+    Pixel colour_;
+    /// Pixels as vectors: compilers take an array of pixels apart, and store them one by one.
+    using Bytes [[gnu::vector_size(size)]] = std::uint8_t;
+    Bytes block_[sizeof(Pixel)];
 };
 
 /// fill_run() with paint.

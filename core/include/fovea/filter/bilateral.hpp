@@ -104,10 +104,13 @@ public:
 
     int rows() const { return 2 * radius_ + 1; }
 
-    void operator()(const RowWindow<Gray8>& window, Gray8* dst) {
+    /// All rows of a window that follows stand in lines but the last one, which takes that of the row above
+    /// the window.
+    void operator()(const RowWindow<Gray8>& window, bool follows, Gray8* dst) {
         const int width = window.width();
-        for (int i = 0; i < rows(); ++i) {
-            std::uint8_t* line = first_ + i * bytes_;
+        top_ = follows && top_ + 1 < rows() ? top_ + 1 : 0;
+        for (int i = follows ? rows() - 1 : 0; i < rows(); ++i) {
+            std::uint8_t* line = line_of(i);
             simd::for_each_vector(width, [&](int x, int count) {
                 std::uint16_t pixels[simd::lanes];
                 simd::Words(count == simd::lanes ? simd::Bytes::load(window[i] + x)
@@ -135,14 +138,18 @@ public:
 
 private:
     static constexpr int square_of(int side) { return side * side; }
+    /// Of row i of the window.
+    [[gnu::always_inline]] std::uint8_t* line_of(int i) const {
+        return first_ + (top_ + i < rows() ? top_ + i : top_ + i - rows()) * bytes_;
+    }
 
     [[gnu::always_inline]] simd::Bytes means(int x) const {
-        const std::uint8_t* middle = first_ + radius_ * bytes_ + simd::bilateral_bytes * x;
+        const std::uint8_t* middle = line_of(radius_) + simd::bilateral_bytes * x;
         simd::BilateralSums first(middle);
         simd::BilateralSums second(middle + simd::bilateral_bytes * simd::half_lanes);
         for (int y = -radius_; y <= radius_; ++y) {
             const int side = sides_[y < 0 ? -y : y];
-            const std::uint8_t* from = middle + y * bytes_;
+            const std::uint8_t* from = line_of(radius_ + y) + simd::bilateral_bytes * x;
             for (int i = -side; i <= side; ++i) {
                 const int square = y * y + i * i;
                 if (square == 0) continue;
@@ -155,6 +162,7 @@ private:
     }
 
     int radius_ = 1;
+    int top_ = 0;  ///< which line has the topmost row
     Border border_ = Border::replicate;
     std::ptrdiff_t bytes_ = 0;
     std::uint8_t* first_ = nullptr;

@@ -101,39 +101,49 @@ public:
 
     int rows() const { return size_.height; }
 
-    void operator()(const RowWindow<Gray8>& window, Pixel* dst) {
-        const int width = window.width();
-        if (sums_.narrow()) {
-            const auto line = [first = first_, bytes = bytes_, width](int i) {
-                return simd::WordLine({first + i * bytes, bytes}, width);
-            };
-            for (int i = 0; i < rows(); ++i) {
-                simd::WordLine to = line(i);
-                simd::for_each_vector(
-                    width, [&](int x, int count) { to.put(x, simd::Words(load(window[i] + x, count))); });
-                continue_ends(window[i], width, [&](int x, std::uint16_t pixel) { to.set(x, pixel); });
-            }
-            sums_.narrow_row(line, size_, width, dst);
-        } else {
-            const auto line = [first = first_ + simd::column_bytes * max_reach, bytes = bytes_](int i) {
-                return first + i * bytes;
-            };
-            for (int i = 0; i < rows(); ++i) {
-                std::uint8_t* to = line(i);
-                simd::for_each_vector(width, [&](int x, int count) {
-                    std::uint16_t pixels[simd::lanes];
-                    simd::Words(load(window[i] + x, count)).store(pixels);
-                    std::memcpy(to + simd::column_bytes * x, pixels, sizeof pixels);
-                });
-                continue_ends(window[i], width, [&](int x, std::uint16_t pixel) {
-                    std::memcpy(to + simd::column_bytes * x, &pixel, sizeof pixel);
-                });
-            }
-            sums_.wide_row(line, size_, width, dst);
-        }
+    void operator()(const RowWindow<Gray8>& window, bool follows, Pixel* dst) {
+        if (sums_.narrow())
+            narrow_row(window, dst);
+        else
+            wide_row(window, follows, dst);
     }
 
 private:
+    void narrow_row(const RowWindow<Gray8>& window, Pixel* dst) {
+        const int width = window.width();
+        const auto line = [first = first_, bytes = bytes_, width](int i) {
+            return simd::WordLine({first + i * bytes, bytes}, width);
+        };
+        for (int i = 0; i < rows(); ++i) {
+            simd::WordLine to = line(i);
+            simd::for_each_vector(
+                width, [&](int x, int count) { to.put(x, simd::Words(load(window[i] + x, count))); });
+            continue_ends(window[i], width, [&](int x, std::uint16_t pixel) { to.set(x, pixel); });
+        }
+        sums_.narrow_row(line, size_, width, dst);
+    }
+    /// All rows of a window that follows stand in lines but the last one, which takes that of the row above
+    /// the window.
+    void wide_row(const RowWindow<Gray8>& window, bool follows, Pixel* dst) {
+        const int width = window.width();
+        top_ = follows && top_ + 1 < rows() ? top_ + 1 : 0;
+        const auto line = [first = first_ + simd::column_bytes * max_reach, bytes = bytes_, top = top_,
+                           rows = rows()](int i) {
+            return first + (top + i < rows ? top + i : top + i - rows) * bytes;
+        };
+        for (int i = follows ? rows() - 1 : 0; i < rows(); ++i) {
+            std::uint8_t* to = line(i);
+            simd::for_each_vector(width, [&](int x, int count) {
+                std::uint16_t pixels[simd::lanes];
+                simd::Words(load(window[i] + x, count)).store(pixels);
+                std::memcpy(to + simd::column_bytes * x, pixels, sizeof pixels);
+            });
+            continue_ends(window[i], width, [&](int x, std::uint16_t pixel) {
+                std::memcpy(to + simd::column_bytes * x, &pixel, sizeof pixel);
+            });
+        }
+        sums_.wide_row(line, size_, width, dst);
+    }
     [[gnu::always_inline]] static simd::Bytes load(const Gray8* from, int count) {
         return count == simd::lanes ? simd::Bytes::load(from) : simd::Bytes::load(from, count);
     }
@@ -152,6 +162,7 @@ private:
     Border border_ = Border::replicate;
     std::uint8_t* first_ = nullptr;
     std::ptrdiff_t bytes_ = 0;
+    int top_ = 0;  ///< which line has the topmost row, if sums are wide
 };
 
 template <class Pixel>

@@ -10,6 +10,7 @@
 #include <fovea/image/border.hpp>
 #include <fovea/image/filter_row.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/simd/binomials.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
 #include <fovea/stream/stage.hpp>
@@ -56,17 +57,11 @@ struct Gaussian3x3 {
     using Output = Gray8;
     using Lines = FilterLines<Gaussian3x3>;
 
-    template <class Value>
-    [[gnu::always_inline]] static simd::Words sum(Value a, Value b, Value c) {
-        return simd::Words(a) + simd::Words(c) + (simd::Words(b) << 1);
-    }
     [[gnu::always_inline]] void down(Lines& lines, int x, simd::Bytes a, simd::Bytes b, simd::Bytes c) const {
-        lines.words().put(x, sum(a, b, c));
+        lines.words().put(x, simd::binomial(a, b, c));
     }
     [[gnu::always_inline]] simd::Bytes across(const Lines& lines, int x) const {
-        const simd::WordLine& line = lines.words();
-        const simd::Words all = sum(line.at<-1>(x), line.at<0>(x), line.at<1>(x));
-        return ((all + simd::Words::all(8)) >> 4).narrow();
+        return (simd::binomial_3(lines.words(), x, 8) >> 4).narrow();
     }
 };
 
@@ -75,20 +70,12 @@ struct Gaussian5x5 {
     using Output = Gray8;
     using Lines = FilterLines<Gaussian5x5>;
 
-    [[gnu::always_inline]] static simd::Words sum(simd::Words a, simd::Words b, simd::Words c, simd::Words d,
-                                                  simd::Words e) {
-        return a + e + ((b + c + d) << 2) + (c << 1);
-    }
     [[gnu::always_inline]] void down(Lines& lines, int x, simd::Bytes a, simd::Bytes b, simd::Bytes c,
                                      simd::Bytes d, simd::Bytes e) const {
-        lines.words().put(
-            x, sum(simd::Words(a), simd::Words(b), simd::Words(c), simd::Words(d), simd::Words(e)));
+        lines.words().put(x, simd::binomial(a, b, c, d, e));
     }
     [[gnu::always_inline]] simd::Bytes across(const Lines& lines, int x) const {
-        const simd::WordLine& line = lines.words();
-        const simd::Words all =
-            sum(line.at<-2>(x), line.at<-1>(x), line.at<0>(x), line.at<1>(x), line.at<2>(x));
-        return ((all + simd::Words::all(128)) >> 8).narrow();
+        return (simd::binomial_5(lines.words(), x, 128) >> 8).narrow();
     }
 };
 

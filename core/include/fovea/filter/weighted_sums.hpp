@@ -40,6 +40,7 @@ public:
         std::int64_t most = 0;
         std::int64_t least = 0;
         for (const std::int16_t weight : weights) (weight > 0 ? most : least) += 255 * weight;
+        most_sum_ = static_cast<std::uint32_t>(maximum(most, -least));
         // A multiple of the divisor that lifts every sum above zero, and half of the divisor for rounding.
         const std::int64_t lift = (-least + divisor - 1) / divisor * divisor;
         const std::int64_t half = divisor / 2;
@@ -87,7 +88,7 @@ public:
                 const std::int16_t* weight = weights_.data() + i * size.width + k;
                 pairs[i * in_a_row + k / 2] = {weight[0], k + 1 < size.width ? weight[1] : std::int16_t{0}};
             }
-        const simd::WideDivision division(most_sum, static_cast<std::uint32_t>(divisor_), offset_);
+        const simd::WideDivision division(most_sum_, static_cast<std::uint32_t>(divisor_), offset_);
         if (size == Size{3, 3})
             wide_columns<2>(line, pairs, 3, size, division, width, dst);
         else
@@ -98,8 +99,6 @@ private:
     static constexpr int max_side = 15;
     static constexpr int most_weights = max_side * max_side;
     static constexpr int no_shift = -1;
-    /// Above the magnitude of every sum: 225 * 32768 * 255.
-    static constexpr std::uint32_t most_sum = 1880064000;
 
     void copy_weights(std::int16_t* to) const {
         std::memcpy(to, weights_.data(), sizeof(std::int16_t) * static_cast<std::size_t>(weights_.size()));
@@ -206,6 +205,8 @@ private:
         }
     }
     Span<const std::int16_t> weights_;
+    /// The largest magnitude of a sum, at most 225 * 32768 * 255.
+    std::uint32_t most_sum_ = 0;
     int divisor_ = 1;
     int offset_ = 0;
     int shift_ = 0;

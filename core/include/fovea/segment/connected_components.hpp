@@ -77,7 +77,7 @@ private:
         LabelIndex link = none;    ///< itself, or the label it was merged into, or the next free one
         LabelIndex outer = none;   ///< of ground: the region on its left
         std::uint16_t hole_count = 0;
-        std::int64_t hole_area = 0;
+        std::int32_t hole_area = 0;  ///< at most all pixels of the largest image
         detail::HoleChain holes;
         bool is_region = false;
         bool at_border = false;
@@ -130,8 +130,7 @@ inline Status connected_components(ImageView<const std::uint8_t> binary, const C
 
 template <class Accumulated>
 constexpr std::int64_t connected_components_scratch(int width, int labels) {
-    return 2 * arena_bytes<Run>(std::int64_t{width} + 1) +
-           arena_bytes<typename ConnectedComponentsOf<Accumulated>::Label>(labels);
+    return 2 * run_row_bytes(width) + arena_bytes<typename ConnectedComponentsOf<Accumulated>::Label>(labels);
 }
 
 template <class Accumulated>
@@ -149,8 +148,8 @@ ConnectedComponentsOf<Accumulated>::ConnectedComponentsOf(int width, const Compo
         status_ = Status::scratch_too_small;
     } else {
         Arena arena(scratch);
-        above_ = RunRow(arena.take_unset<Run>(width + 1));
-        here_ = RunRow(arena.take_unset<Run>(width + 1));
+        above_ = RunRow(arena, width);
+        here_ = RunRow(arena, width);
         const auto room = (arena.rest().size() - static_cast<std::ptrdiff_t>(alignof(Label)) + 1) /
                           static_cast<std::ptrdiff_t>(sizeof(Label));
         labels_ = arena.take_unset<Label>(minimum<std::ptrdiff_t>(room, 2 * width + 2));
@@ -182,31 +181,18 @@ Status ConnectedComponentsOf<Accumulated>::add_row(const std::uint8_t* row) {
     return Status::ok;
 }
 
-/// Gives the runs of regions, or those of the ground, the labels of the runs above that they touch, merging
-/// these, or new ones. False if there is no label left.
+/// Gives the runs of regions, or those of the ground, their labels. False if there is no label left.
 template <class Accumulated>
 bool ConnectedComponentsOf<Accumulated>::label_runs(bool regions) {
-    const RunRow above = above_;
-    const RunRow here = here_;
+    struct Labels {
+        ConnectedComponentsOf& of;
+        bool regions;
+        LabelIndex find(LabelIndex label) { return of.find(label); }
+        LabelIndex merge(LabelIndex a, LabelIndex b) { return of.merge(a, b); }
+        LabelIndex add(int x) { return of.new_label(regions, {x, of.y_}); }
+    };
     const int reach = regions == (options_.connectivity == Connectivity::eight) ? 1 : 0;
-    // Of the runs above, the first that may touch the next run here.
-    int touched = above.first_of(regions);
-    for (int i = here.first_of(regions); i < here.count(); i += 2) {
-        const int first = here[i].first - reach;
-        const int end = here.end(i) + reach;
-        while (touched < above.count() && above.end(touched) <= first) touched += 2;
-        LabelIndex label = none;
-        if (touched < above.count() && above[touched].first < end) {
-            label = find(above[touched].label);
-            for (; touched + 2 < above.count() && above[touched + 2].first < end; touched += 2)
-                label = merge(label, find(above[touched + 2].label));
-        } else {
-            label = new_label(regions, {here[i].first, y_});
-            if (label == none) return false;
-        }
-        here[i].label = label;
-    }
-    return true;
+    return fovea::label_runs(above_, here_, regions, reach, Labels{*this, regions});
 }
 
 /// Adds the runs of regions, or those of the ground, to their labels, which become final. The leftmost run of
@@ -295,8 +281,8 @@ void ConnectedComponentsOf<Accumulated>::close_labels_of(bool regions) {
     for (int i = above_.first_of(regions); i < above_.count(); i += 2) {
         const LabelIndex index = above_[i].label;
         Label& label = labels_[index];
-        if (label.bottom == y_ && label.link == index) continue;
-        if (label.bottom == freed) continue;  // By another run of the same label.
+        if (((label.bottom ^ y_) | (label.link ^ index)) == 0) continue;  // One question: it is often random.
+        if (label.bottom == freed) continue;                              // By another run of the same label.
         if (label.link == index) {
             if (regions)
                 close_region(label);
@@ -320,7 +306,7 @@ void ConnectedComponentsOf<Accumulated>::close_hole(const Label& hole) {
     const Rectangle box{hole.left, hole.first.y, hole.right - hole.left + 1, hole.bottom - hole.first.y + 1};
     Label& region = labels_[find(hole.outer)];
     ++region.hole_count;
-    region.hole_area += hole.moments.area();
+    region.hole_area += static_cast<std::int32_t>(hole.moments.area());
     lists_.add_hole({hole.moments, box, hole.first, 0}, region.holes, labels_.first(used_labels_));
 }
 

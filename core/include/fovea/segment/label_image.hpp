@@ -28,8 +28,7 @@ inline constexpr int max_image_labels = 65534;
 /// Scratch bytes for so many pieces of regions; without them, for any image of this size. A piece is what
 /// looks like a region of its own when it is met from above: a U is two.
 constexpr std::int64_t label_image_scratch(Size size, int pieces) {
-    return 2 * arena_bytes<Run>(std::int64_t{size.width} + 1) +
-           arena_bytes<Label16>(std::int64_t{pieces} + 1);
+    return 2 * run_row_bytes(size.width) + arena_bytes<Label16>(std::int64_t{pieces} + 1);
 }
 constexpr std::int64_t label_image_scratch(Size size) {
     return label_image_scratch(
@@ -61,8 +60,8 @@ class LabelTable {
 public:
     explicit LabelTable(Span<Label16> parents) : parents_(parents) {}
 
-    /// A new piece, or no_label if there is no room.
-    Label16 add() {
+    /// A new piece, wherever it begins, or no_label if there is no room.
+    Label16 add(int) {
         if (count_ + 1 >= parents_.size()) return no_label;
         ++count_;
         return parents_[count_] = static_cast<Label16>(count_);
@@ -71,11 +70,8 @@ public:
         while (parents_[label] != label) label = parents_[label] = parents_[parents_[label]];
         return label;
     }
-    Label16 merge(Label16 a, Label16 b) {
-        const Label16 p = find(a);
-        const Label16 q = find(b);
-        return parents_[maximum(p, q)] = minimum(p, q);
-    }
+    /// Of two that find() answered.
+    Label16 merge(Label16 a, Label16 b) { return parents_[maximum(a, b)] = minimum(a, b); }
     /// Gives every piece the number of its region, and answers how many there are.
     int number() {
         int regions = 0;
@@ -89,29 +85,6 @@ private:
     Span<Label16> parents_;
     std::ptrdiff_t count_ = 0;
 };
-
-/// Gives every run of a region the label of the runs above that it touches, or a new one. False if there is
-/// none left.
-inline bool label_runs(RunRow above, RunRow here, Connectivity connectivity, LabelTable& table) {
-    const int reach = connectivity == Connectivity::eight ? 1 : 0;
-    int touched = above.first_of(true);
-    for (int i = here.first_of(true); i < here.count(); i += 2) {
-        const int first = here[i].first - reach;
-        const int end = here.end(i) + reach;
-        while (touched < above.count() && above.end(touched) <= first) touched += 2;
-        Label16 label = 0;
-        if (touched < above.count() && above[touched].first < end) {
-            label = table.find(above[touched].label);
-            for (; touched + 2 < above.count() && above[touched + 2].first < end; touched += 2)
-                label = table.merge(label, above[touched + 2].label);
-        } else {
-            label = table.add();
-            if (label == no_label) return false;
-        }
-        here[i].label = label;
-    }
-    return true;
-}
 
 /// Writes first to end - 1, and perhaps some pixels behind them, which are written later.
 inline void write_label(int first, int end, int width, Label16 label, Label16* out) {
@@ -135,15 +108,16 @@ inline Result<int> label_image(ImageView<const std::uint8_t> src, Connectivity c
     if (scratch.size() < label_image_scratch(src.size(), 1)) return Status::scratch_too_small;
     const int width = src.width();
     Arena arena(scratch);
-    RunRow above(arena.take_unset<Run>(width + 1));
-    RunRow here(arena.take_unset<Run>(width + 1));
+    RunRow above(arena, width);
+    RunRow here(arena, width);
     const auto room = (arena.rest().size() - static_cast<std::ptrdiff_t>(alignof(Label16)) + 1) /
                       static_cast<std::ptrdiff_t>(sizeof(Label16));
     detail::LabelTable table(arena.take_unset<Label16>(minimum<std::ptrdiff_t>(room, max_image_labels + 1)));
 
+    const int reach = connectivity == Connectivity::eight ? 1 : 0;
     for (int y = 0; y < src.height(); ++y) {
         static_cast<void>(here.split(src.row(y), width));
-        if (!detail::label_runs(above, here, connectivity, table)) return Status::capacity_exceeded;
+        if (!label_runs(above, here, true, reach, table)) return Status::capacity_exceeded;
         // The first pixel of a run remembers its piece until all are known.
         Label16* out = dst.row(y);
         for (int i = here.first_of(true); i < here.count(); i += 2) out[here[i].first] = here[i].label;

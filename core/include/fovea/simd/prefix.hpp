@@ -63,6 +63,31 @@ namespace simd {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_add_epi32(over, sums));
 }
 
+/// The prefix sums of 32 bytes as words. Only one unit of the processor moves numbers between lanes, so few
+/// steps do: pairs of columns are summed first, and four pairs by shifts within 64 bits.
+struct PrefixOfBytes {
+    __m256i first;   ///< columns 0 to 7 and 16 to 23
+    __m256i second;  ///< columns 8 to 15 and 24 to 31
+    __m256i all;     ///< in every 32 bits the sum of all
+
+    [[gnu::always_inline]] explicit PrefixOfBytes(__m256i bytes) {
+        const __m256i odd = _mm256_srli_epi16(bytes, 8);
+        __m256i pairs = _mm256_add_epi16(_mm256_and_si256(bytes, _mm256_set1_epi16(255)), odd);
+        pairs = _mm256_add_epi16(pairs, _mm256_slli_epi64(pairs, 16));
+        pairs = _mm256_add_epi16(pairs, _mm256_slli_epi64(pairs, 32));
+        const __m256i last_of_four = _mm256_broadcastsi128_si256(
+            _mm_setr_epi8(-1, -1, -1, -1, -1, -1, -1, -1, 6, 7, 6, 7, 6, 7, 6, 7));
+        pairs = _mm256_add_epi16(pairs, _mm256_shuffle_epi8(pairs, last_of_four));
+        const __m256i ends = _mm256_shuffle_epi8(pairs, _mm256_set1_epi16(15 << 8 | 14));
+        pairs = _mm256_add_epi16(pairs, _mm256_permute2x128_si256(ends, ends, 0x08));
+        all = _mm256_and_si256(_mm256_add_epi16(ends, _mm256_permute2x128_si256(ends, ends, 0x01)),
+                               _mm256_set1_epi32(0xffff));
+        const __m256i even = _mm256_sub_epi16(pairs, odd);
+        first = _mm256_unpacklo_epi16(even, pairs);
+        second = _mm256_unpackhi_epi16(even, pairs);
+    }
+};
+
 #endif
 
 #if FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
@@ -91,21 +116,19 @@ inline void integral_row(const std::uint8_t* src, int count, const std::uint32_t
     int x = 0;
     std::uint32_t sum = 0;
 #if FOVEA_BYTES >= 32 && defined(__AVX2__)
-    const __m256i last = _mm256_set1_epi32(7);
     __m256i carry = _mm256_setzero_si256();
-    for (; x + 16 <= count; x += 16) {
-        __m256i words = _mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(src + x)));
-        words = _mm256_add_epi16(words, _mm256_slli_si256(words, 2));
-        words = _mm256_add_epi16(words, _mm256_slli_si256(words, 4));
-        words = _mm256_add_epi16(words, _mm256_slli_si256(words, 8));
-        const __m256i low = _mm256_cvtepu16_epi32(_mm256_castsi256_si128(words));
-        const __m256i high = _mm256_cvtepu16_epi32(_mm256_extracti128_si256(words, 1));
-        // What goes on to the right waits for one sum alone.
-        const __m256i all_low = _mm256_permutevar8x32_epi32(low, last);
-        const __m256i all = _mm256_add_epi32(all_low, _mm256_permutevar8x32_epi32(high, last));
-        add_above(above + x, _mm256_add_epi32(low, carry), dst + x);
-        add_above(above + x + 8, _mm256_add_epi32(high, _mm256_add_epi32(carry, all_low)), dst + x + 8);
-        carry = _mm256_add_epi32(carry, all);
+    for (; x + 32 <= count; x += 32) {
+        const __m256i bytes = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(src + x));
+        const PrefixOfBytes words(bytes);
+        const auto add = [&](int column, __m128i sums) {
+            add_above(above + x + column, _mm256_add_epi32(_mm256_cvtepu16_epi32(sums), carry),
+                      dst + x + column);
+        };
+        add(0, _mm256_castsi256_si128(words.first));
+        add(8, _mm256_castsi256_si128(words.second));
+        add(16, _mm256_extracti128_si256(words.first, 1));
+        add(24, _mm256_extracti128_si256(words.second, 1));
+        carry = _mm256_add_epi32(carry, words.all);
     }
     sum = static_cast<std::uint32_t>(_mm256_cvtsi256_si32(carry));
 #elif FOVEA_BYTES >= 16 && defined(__SSE2__)

@@ -130,15 +130,19 @@ class WideDivision {
 public:
     /// 2 * (most + divisor) stays below 2^32, divisor below 2^16.
     WideDivision(std::uint32_t most, std::uint32_t divisor, int offset)
-        : divisor_(divisor),
-          reciprocal_(divisor == 1 ? 0xffffffffu
-                                   : static_cast<std::uint32_t>((std::uint64_t{1} << 32) / divisor)) {
+        : divisor_(divisor), reciprocal_(0xffffffffu / divisor) {
         // A multiple of the divisor makes all sums positive.
         const std::uint32_t lifts = (most + divisor - 1) / divisor;
         lift_ = lifts * divisor + divisor / 2;
         back_ = static_cast<std::uint32_t>(offset) - lifts;
         while ((1u << (shift_ + 1)) <= divisor) ++shift_;
-        if (1u << shift_ != divisor) shift_ = no_shift;
+        if (1u << shift_ == divisor) return;
+        shift_ = no_shift;
+        // Rounded up, the reciprocal is (2^32 + more) / divisor. It adds sum * more / (divisor * 2^32) to a
+        // quotient, and lifts none to the next whole number as long as that is below 1 / divisor.
+        const std::uint64_t more = std::uint64_t{reciprocal_ + 1} * divisor - (std::uint64_t{1} << 32);
+        is_exact_ = (std::uint64_t{lift_} + most) * more < std::uint64_t{1} << 32;
+        if (is_exact_) ++reciprocal_;
     }
     /// The quotients of the columns in order.
     [[gnu::always_inline]] RawWords of(const WideSums& sums, int low, int high) const {
@@ -155,6 +159,7 @@ private:
 
     [[gnu::always_inline]] WideUnsigned quotient(WideUnsigned lifted) const {
         if (shift_ != no_shift) return lifted >> shift_;
+        if (is_exact_) return wide_times_high(lifted, reciprocal_);
         // The reciprocal rounded down gives a quotient that is right or one too small.
         const WideUnsigned rounded_down = wide_times_high(lifted, reciprocal_);
         const WideUnsigned rest = lifted - rounded_down * divisor_;
@@ -167,6 +172,7 @@ private:
     std::uint32_t lift_;
     std::uint32_t back_;
     int shift_ = 0;
+    bool is_exact_ = false;
 };
 
 }  // namespace simd

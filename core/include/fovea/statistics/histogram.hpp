@@ -43,10 +43,24 @@ public:
     constexpr void add_row(const Gray8* row, int width) {
         int x = 0;
         for (; x + 4 <= width; x += 4) {
-            ++counts_[0][row[x]];
-            ++counts_[1 % tables][row[x + 1]];
-            ++counts_[2 % tables][row[x + 2]];
-            ++counts_[3 % tables][row[x + 3]];
+            // All four are read before one is written: a count need not wait for a store before it. One table takes
+            // them one after the other.
+            std::uint32_t* const first = &counts_[0][row[x]];
+            std::uint32_t* const second = &counts_[1 % tables][row[x + 1]];
+            std::uint32_t* const third = &counts_[2 % tables][row[x + 2]];
+            std::uint32_t* const fourth = &counts_[3 % tables][row[x + 3]];
+            if constexpr (tables == 4) {
+                const std::uint32_t counts[] = {*first + 1, *second + 1, *third + 1, *fourth + 1};
+                *first = counts[0];
+                *second = counts[1];
+                *third = counts[2];
+                *fourth = counts[3];
+            } else {
+                ++*first;
+                ++*second;
+                ++*third;
+                ++*fourth;
+            }
         }
         for (; x < width; ++x) ++counts_[0][row[x]];
     }
