@@ -16,6 +16,7 @@
 #include <fovea/simd/interleave.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/simd/unroll.hpp>
 #include <fovea/simd/weighed_words.hpp>
 
 namespace fovea {
@@ -86,6 +87,29 @@ inline void rgb_from_rgb565_row(const Rgb565* src, int width, Rgb888* dst) {
     const simd::RawWords blue = simd::times_high(colour << 11, 33 << 3);
     return simd::weigh_words(red, green, blue, detail::gray_weights);
 }
+#else
+/// What the two bytes of a colour add to its brightness, times 2^15 and with half of that: the parts of green in each
+/// are independent of one another.
+struct GrayOfHalves {
+    std::uint32_t high[256];
+    std::uint32_t low[256];
+};
+constexpr GrayOfHalves make_gray_of_halves() {
+    GrayOfHalves halves{};
+    for (std::uint32_t byte = 0; byte < 256; ++byte) {
+        const Rgb888 high = rgb_of_rgb565(static_cast<Rgb565>(byte << 8));
+        const Rgb888 low = rgb_of_rgb565(static_cast<Rgb565>(byte));
+        const auto sum = [](Rgb888 colour) {
+            constexpr simd::TripleWeights weights = detail::gray_weights;
+            return static_cast<std::uint32_t>(weights.first * colour.red + weights.second * colour.green +
+                                              weights.third * colour.blue);
+        };
+        halves.high[byte] = sum(high) + (1u << 14);
+        halves.low[byte] = sum(low);
+    }
+    return halves;
+}
+inline constexpr GrayOfHalves gray_of_halves = make_gray_of_halves();
 #endif
 
 /// rgb565_to_gray() of one row.
@@ -100,7 +124,13 @@ inline void gray_from_rgb565_row(const Rgb565* src, int width, Gray8* dst) {
                                   simd::narrowed(gray_of_rgb565(first), gray_of_rgb565(second)).store(to);
                               });
 #else
-    for (int x = 0; x < width; ++x) dst[x] = gray_of(rgb_of_rgb565(src[x]));
+    const auto gray = [](Rgb565 colour) {
+        return static_cast<Gray8>((gray_of_halves.high[colour >> 8] + gray_of_halves.low[colour & 255]) >>
+                                  15);
+    };
+    int x = 0;
+    for (; x + 4 <= width; x += 4) simd::unroll<4>([&](auto i) { dst[x + i] = gray(src[x + i]); });
+    for (; x < width; ++x) dst[x] = gray(src[x]);
 #endif
 }
 
