@@ -56,7 +56,7 @@ struct LineGauge {
     static constexpr int labels = 12;
 
     alignas(8) std::uint8_t of_stream[5632];
-    alignas(8) std::uint8_t of_components[6784];
+    alignas(8) std::uint8_t of_components[7040];
     List<Region, 3> regions;
     List<Hole, 3> holes;
 

@@ -88,8 +88,8 @@ inline void rgb_from_rgb565_row(const Rgb565* src, int width, Rgb888* dst) {
     return simd::weigh_words(red, green, blue, detail::gray_weights);
 }
 #else
-/// What the two bytes of a colour add to its brightness, times 2^15 and with half of that: the parts of green in each
-/// are independent of one another.
+/// What the two bytes of a colour add to its brightness, times 2^15 and with half of that: the parts of green
+/// in each are independent of one another.
 struct GrayOfHalves {
     std::uint32_t high[256];
     std::uint32_t low[256];

@@ -43,8 +43,8 @@ public:
     constexpr void add_row(const Gray8* row, int width) {
         int x = 0;
         for (; x + 4 <= width; x += 4) {
-            // All four are read before one is written: a count need not wait for a store before it. One table takes
-            // them one after the other.
+            // All four are read before one is written: a count need not wait for a store before it. One table
+            // takes them one after the other.
             std::uint32_t* const first = &counts_[0][row[x]];
             std::uint32_t* const second = &counts_[1 % tables][row[x + 1]];
             std::uint32_t* const third = &counts_[2 % tables][row[x + 2]];

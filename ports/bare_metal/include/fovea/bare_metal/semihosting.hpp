@@ -11,10 +11,10 @@ namespace fovea::bare_metal {
 /// specifications). Without a debugger the processor stops here, on Arm by a fault.
 [[noreturn]] inline void end_program(int code) {
     // ADP_Stopped_ApplicationExit and the code.
-    const std::uint32_t block[2] = {0x20026u, static_cast<std::uint32_t>(code)};
+    [[maybe_unused]] const std::uint32_t block[2] = {0x20026u, static_cast<std::uint32_t>(code)};
 #if defined(__arm__)
     __asm volatile("movs r0, #0x20\n mov r1, %0\n bkpt 0xAB" : : "r"(block) : "r0", "r1", "memory");
-#else
+#elif defined(__riscv)
     // The three instructions are the sign, and must lie in one page: hence their alignment.
     __asm volatile(
         "li a0, 0x20\n mv a1, %0\n .balign 16\n .option push\n .option norvc\n"
