@@ -17,7 +17,7 @@ from pathlib import Path
 # e_machine of the ELF header -> prefix of the binary utilities, and what computes in floats there. Loads, stores and
 # plain moves are not among them: Helium and NEON use the same registers for integers.
 MACHINES = {
-    40: ("arm-none-eabi-", r"(?!vmovx?\.)v[a-z0-9]+(\.[a-z0-9]+)*\.[bf](16|32|64)(\.[a-z0-9]+)*|vcvt.*|vsqrt.*|vdiv.*"),
+    40: ("arm-none-eabi-", r"(?!vmovx?\.|vins\.)v[a-z0-9]+(\.[a-z0-9]+)*\.[bf](16|32|64)(\.[a-z0-9]+)*|vcvt.*|vsqrt.*|vdiv.*"),
     62: ("", r"v?(add|sub|mul|div|sqrt|min|max|round|rcp|rsqrt|hadd|hsub|addsub|cmp[a-z_]*|f?n?m(add|sub)[0-9]*|dp)"
              r"[sp][sdh]|v?u?comis[sdh]|v?cvt.*|f(n?i?(ld|st|add|sub|mul|div|com|sqrt|abs|chs|ild|sin|cos).*)"),
     183: ("aarch64-linux-gnu-", r"f(add|sub|n?m(add|sub|ul)|ml[as]|mulx?|div|sqrt|abs|neg|cvt[a-z]*|rint[a-z]|cmp?e?|"

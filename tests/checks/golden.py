@@ -4,7 +4,9 @@
 usage: golden.py [--root ROOT]              each function in the Interface part of a core header is called by
                                             tests/golden/*_vectors.hpp or by an entry of the catalogue, or stands
                                             in tests/golden/without_vector.txt
-       golden.py --table FILE COMMAND...    the command prints the table in FILE; lines that begin with # are remarks
+       golden.py --table FILE [--seen FILE] COMMAND...
+                                            the command prints the table in FILE; lines that begin with # are remarks;
+                                            what it printed is left in the other file
 """
 import argparse
 import difflib
@@ -43,7 +45,7 @@ def check_coverage(root):
     return 1 if findings else 0
 
 
-def check_table(table, command):
+def check_table(table, command, seen):
     expected = [line for line in Path(table).read_text().split("\n") if line and not line.startswith("#")]
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode != 0:
@@ -51,6 +53,9 @@ def check_table(table, command):
         return 1
     printed = [line for line in run.stdout.split("\n")[:-1] if not line.startswith("#")]
     remarks = [line[2:] for line in run.stdout.split("\n") if line.startswith("# ")]
+    if seen:
+        seen.parent.mkdir(parents=True, exist_ok=True)
+        seen.write_text("".join(f"{line}\n" for line in printed))
     different = [line for line in difflib.unified_diff(expected, printed, table, "computed here", n=0, lineterm="")]
     print("\n".join(different) if different else "; ".join([f"golden: {len(printed)} lines as in the table", *remarks]))
     if different:
@@ -62,9 +67,10 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--root", type=Path, default=Path(__file__).parents[2])
     parser.add_argument("--table")
+    parser.add_argument("--seen", type=Path)
     parser.add_argument("command", nargs=argparse.REMAINDER)
     options = parser.parse_args()
-    return check_table(options.table, options.command) if options.table else check_coverage(options.root)
+    return check_table(options.table, options.command, options.seen) if options.table else check_coverage(options.root)
 
 
 if __name__ == "__main__":

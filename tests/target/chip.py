@@ -2,6 +2,7 @@
 """A chip's golden vectors and costs: runs a golden program on an emulated board.
 
 usage: chip.py LANE BOARD PROGRAM PLUGIN [--write [--because REASON]] [--golden FILE] [--tables FOLDER]
+               [--seen FILE]
 
 The golden vectors must be those of tests/golden/golden.txt, and the instructions that operators take those of
 tests/target/instructions/LANE.txt, to the last one. --write puts the counts as they are now into that file; where one
@@ -46,10 +47,14 @@ def main():
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--because")
     parser.add_argument("--golden", type=Path, default=TESTS / "golden/golden.txt")
+    parser.add_argument("--seen", type=Path, help="where the golden vectors are left")
     parser.add_argument("--tables", type=Path, default=TESTS / "target/instructions")
     options = parser.parse_args()
 
     golden, costs, remarks = run(options.board, options.program, options.plugin)
+    if options.seen:
+        options.seen.parent.mkdir(parents=True, exist_ok=True)
+        options.seen.write_text("".join(f"{line}\n" for line in golden))
     expected = options.golden.read_text().splitlines()
     wrong = [line for line in golden if line not in expected] + [line for line in expected if line not in golden]
     if wrong or len(golden) != len(expected):
