@@ -65,40 +65,47 @@ class Board:
             sys.exit(f"pins: OK and not OK must be {ok}, {not_ok}, but are {self.outputs()}")
 
 
+def drive(board):
+    board.expect("ready")
+    board.expect_outputs(False, True)
+    # Every byte comes back, in order.
+    for text in "fovea 42":
+        board.say(text)
+        board.expect(text)
+    # An edge is seen once, and only one that makes the line active.
+    for _ in range(3):
+        board.set_trigger(1)
+        board.expect("edge" if board.register is None else "edge, active")
+        board.expect_outputs(True, False)
+        board.set_trigger(0)
+        # The second answer comes after the program has asked for the line once more.
+        for _ in range(2):
+            board.say("-")
+            board.expect("-")
+    # A clock that runs, and not much faster than ours; a busy emulator loses time.
+    board.say("t")
+    first = int(board.process.stdout.readline())
+    start = time.monotonic()
+    time.sleep(0.2)
+    board.say("t")
+    second = int(board.process.stdout.readline())
+    elapsed = round((time.monotonic() - start) * 1000000)
+    if not 0 <= first < second <= first + 5 * elapsed:
+        sys.exit(f"pins: the clock said {first} and then {second}, {elapsed} us later")
+    board.say("q")
+    code = board.process.wait(30)
+    if code != 0:
+        sys.exit(f"pins: the program ended with {code}")
+
+
 def main():
     name, program = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         board = Board(name, program, folder)
-        board.expect("ready")
-        board.expect_outputs(False, True)
-        # Every byte comes back, in order.
-        for text in "fovea 42":
-            board.say(text)
-            board.expect(text)
-        # An edge is seen once, and only one that makes the line active.
-        for _ in range(3):
-            board.set_trigger(1)
-            board.expect("edge" if board.register is None else "edge, active")
-            board.expect_outputs(True, False)
-            board.set_trigger(0)
-            # The second answer comes after the program has asked for the line once more.
-            for _ in range(2):
-                board.say("-")
-                board.expect("-")
-        # A clock that runs, and not much faster than ours; a busy emulator loses time.
-        board.say("t")
-        first = int(board.process.stdout.readline())
-        start = time.monotonic()
-        time.sleep(0.2)
-        board.say("t")
-        second = int(board.process.stdout.readline())
-        elapsed = round((time.monotonic() - start) * 1000000)
-        if not 0 <= first < second <= first + 5 * elapsed:
-            sys.exit(f"pins: the clock said {first} and then {second}, {elapsed} us later")
-        board.say("q")
-        code = board.process.wait(30)
-        if code != 0:
-            sys.exit(f"pins: {program} ended with {code}")
+        try:
+            drive(board)
+        finally:
+            board.process.terminate()
     print(f"pins: {name}: trigger, verdicts, echo and clock")
 
 
