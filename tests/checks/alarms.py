@@ -476,6 +476,14 @@ def target_binary(folder):
                                 "riscv64-linux-gnu-g++"])
 
 
+# What makes a program of the microbit, but for its own file and the arithmetic behind it.
+PORT = PROJECT / "ports/bare_metal"
+MICROBIT = " ".join(
+    ["arm-none-eabi-g++ -std=c++17 -mcpu=cortex-m0 -mthumb -Os -fno-exceptions -fno-rtti -fno-tree-loop-distribute-patterns",
+     "-nostdlib -static -Wl,--gc-sections", f"-T {PORT}/microbit/memory.ld -T {PORT}/startup/sections.ld",
+     *(f"-I{PROJECT / path}" for path in ("core/include", "hal/include", "tests")), f"-I{PORT}/include -I{PORT}/microbit",
+     *(f"{PORT}/startup/{file}.cpp" for file in ("start", "cortex_m", "memory"))])
+
 # A chip's program that is as large as a fault.
 CHIP = """#include <board.hpp>
 #include <target/print.hpp>
@@ -501,20 +509,14 @@ int main() {
 
 def target_chip(folder):
     """chip.py must see other bits, another count and a fault; what wants a library must not link."""
-    port = PROJECT / "ports/bare_metal"
     golden = write(folder, {"chip.cpp": CHIP, "golden.txt": "bits 00000001\n"}) / "golden.txt"
-    includes = " ".join(f"-I{PROJECT / path}" for path in ("core/include", "hal/include", "ports/bare_metal/include",
-                                                           "ports/bare_metal/microbit", "tests"))
     plugin = folder / "count.so"
     subprocess.run(["g++", "-std=c++17", "-shared", "-fPIC", PROJECT / "tests/target/count_instructions.cpp", "-o", plugin],
                    check=True)
 
     def chip(name, bits="bits 00000001", turns=10, fault="", options=""):
         return ["sh", "-c",
-                f"cd {folder} && arm-none-eabi-g++ -std=c++17 -mcpu=cortex-m0 -mthumb -Os -fno-exceptions -fno-rtti "
-                f"-fno-tree-loop-distribute-patterns {includes} '-DBITS=\"{bits}\\n\"' -DTURNS={turns} '-DFAULT={fault}' "
-                f"chip.cpp {port}/startup/start.cpp {port}/startup/cortex_m.cpp {port}/startup/memory.cpp -nostdlib -static "
-                f"-Wl,--gc-sections -T {port}/microbit/memory.ld -T {port}/startup/sections.ld -lgcc -o {name} && "
+                f"cd {folder} && {MICROBIT} '-DBITS=\"{bits}\\n\"' -DTURNS={turns} '-DFAULT={fault}' chip.cpp -lgcc -o {name} && "
                 f"{PROJECT}/tests/target/chip.py lane microbit {name} {plugin} --golden {golden} --tables {folder} {options}"]
 
     yield "a table", chip("table", options="--write"), None
@@ -531,7 +533,20 @@ def target_chip(folder):
     yield "a heap", chip("heap", fault="bottom = malloc(4) == nullptr"), "undefined reference to `malloc'"
 
 
-target_alarms = [target_binary, target_chip]
+def target_pins(folder):
+    """pins.py must see a verdict that does not move, an edge that is gone, wrong bytes and a clock that stands."""
+    program = (PROJECT / "tests/target/pins.cpp").read_text()
+    for name, good, bad, words in [
+            ("nothing", "", "", None), ("verdict", "(ok.set(true)", "(ok.set(false)", "OK and not OK must be True, False"),
+            ("edge", "edge, active", "edge, gone", "'edge, active' was expected"),
+            ("echo", "static_cast<char>(byte), ", "static_cast<char>(byte | 1), ", "'f' was expected"),
+            ("clock", "clock.microseconds() - begin", "std::int64_t{7}", "the clock said 7 and then 7")]:
+        source = write(folder, {f"{name}.cpp": program.replace(good, bad) if good else program}) / f"{name}.cpp"
+        yield name, ["sh", "-c", f"cd {folder} && {MICROBIT} -DFOVEA_OUTPUTS=1 {source} -lgcc -o {name} && "
+                                 f"{PROJECT}/tests/target/pins.py microbit {name}"], words
+
+
+target_alarms = [target_binary, target_chip, target_pins]
 
 
 # ---- All of them --------------------------------------------------------------------------

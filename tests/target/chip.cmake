@@ -12,8 +12,8 @@ elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "cortex-m4")
   set(golden_level -O3)
 endif()
 
-# GCC takes twice as long for Helium with its vectorizer of straight code, which finds nothing in ours.
-# What it guesses about loops at -O3 is wrong for pictures whose size it sees.
+# What GCC guesses about loops at -O3 is wrong for pictures whose size it sees. With its vectorizer of straight code it
+# takes twice as long for Helium.
 set(golden_compiler $<$<CXX_COMPILER_ID:GNU>:-Wno-aggressive-loop-optimizations>)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "cortex-m55" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND golden_compiler -fno-tree-slp-vectorize)

@@ -90,7 +90,7 @@ struct PrefixOfBytes {
 
 #endif
 
-#if FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
+#if FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 
 /// Four sums of integral_row(), after sum. One instruction adds a byte out of a word.
 [[gnu::always_inline]] inline std::uint32_t add_four_above(const std::uint8_t* src, std::uint32_t sum,
@@ -155,7 +155,7 @@ inline void integral_row(const std::uint8_t* src, int count, const std::uint32_t
         vst1q_u32(dst + x + 4, vaddq_u32(vld1q_u32(above + x + 4), high));
     }
     sum = vgetq_lane_u32(carry, 0);
-#elif FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32)
+#elif FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     for (; x + 8 <= count; x += 8) {
         sum = add_four_above(src + x, sum, above + x, dst + x);
         sum = add_four_above(src + x + 4, sum, above + x + 4, dst + x + 4);

@@ -30,7 +30,7 @@ public:
             const std::uint32_t high = fovea_milliseconds_high;
             const std::uint32_t low = fovea_milliseconds;
             const std::uint32_t left = word_at(value);
-            if (low != fovea_milliseconds) continue;
+            if (low != fovea_milliseconds || high != fovea_milliseconds_high) continue;
             const std::int64_t whole = static_cast<std::int64_t>(std::uint64_t{high} << 32 | low);
             const std::int64_t now = whole * 1000 + (ticks_ - 1 - left) * 1000 / ticks_;
             // The counter may have begun anew before its interrupt came.
