@@ -317,10 +317,10 @@ def golden(folder):
 
 @alarm
 def stack(folder):
-    def trial(name, source, budget="", note="unit.su"):
+    def trial(name, source, budget="", whole=""):
         place = write(folder / name, {"unit.cpp": source, "budget": budget})
-        return ["sh", "-c", f"cd {place} && g++ -O1 -fstack-usage -c unit.cpp -o {note[:-3]}.o && "
-                            f"{CHECKS}/stack.py --budget budget {note}"]
+        return ["sh", "-c", f"cd {place} && g++ -O1 -fstack-usage -c unit.cpp && "
+                            f"{CHECKS}/stack.py --budget budget {whole} unit.su"]
 
     large = "void use(char*);\nvoid fill() { char room[%s]; use(room); }\n"
     yield "a small frame", trial("small", large % 100), None
@@ -330,7 +330,7 @@ def stack(folder):
     yield "a frame of any size", trial("any", "void use(char*);\nvoid fill(int n) { char room[n]; use(room); }\n"), \
         "a frame of unknown size"
     yield "a budget without a reason", trial("reason", large % 100, "3100 fill\n"), "reason are wanted"
-    yield "a budget that nobody needs", trial("idle", large % 100, "3100 fill a reason\n", "gauge_objects.cpp.su"), \
+    yield "a budget that nobody needs", trial("idle", large % 100, "3100 fill a reason\n", "--whole"), \
         "fill stands in the budget"
     yield "no notes", [CHECKS / "stack.py", write(folder / "empty", {"a": ""})], "no notes"
 
