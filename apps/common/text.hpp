@@ -15,6 +15,8 @@
 #include <fovea/number/decimal.hpp>
 #include <fovea/number/fixed.hpp>
 
+#include <common/decimals.hpp>
+
 namespace fovea::apps {
 
 inline Span<const char> span_of(const std::string& text) {
@@ -33,10 +35,6 @@ inline std::string number(Decimal value, int places) {
     const Result<int> length = print_decimal(value, places, buffer);
     return length ? std::string(buffer, static_cast<std::size_t>(*length)) : "?";
 }
-inline Decimal decimal_of(FinePixel value) {
-    return {round_shift(std::int64_t{value.raw()} * 1000000, FinePixel::fraction_bits)};
-}
-inline Decimal decimal_of(FineAngle angle) { return {angle.microdegrees()}; }
 /// The shortest form that reads back as the same number: no zeros at the end, at least a whole number.
 inline std::string shortest(Decimal value) {
     std::string text = number(value, 6);
@@ -45,25 +43,8 @@ inline std::string shortest(Decimal value) {
     return text;
 }
 
-/// True if the first code point of a text was read from bytes that are no UTF-8.
-inline bool is_no_utf8(CodePoint read, Span<const char> text) {
-    return read.value == replacement_character && string_of(text.first(read.bytes)) != "\xef\xbf\xbd";
-}
-
-/// True for the control characters of ASCII and of Latin 1, which terminals may obey.
-inline bool is_control(std::uint32_t code_point) {
-    return code_point < 0x20 || (code_point >= 0x7f && code_point < 0xa0);
-}
-
 /// True for UTF-8 without control characters: a name that stays on its line.
-inline bool printable(const std::string& text) {
-    for (Span<const char> rest = span_of(text); !rest.empty();) {
-        const CodePoint read = first_code_point(rest);
-        if (is_no_utf8(read, rest) || is_control(read.value)) return false;
-        rest = rest.from(read.bytes);
-    }
-    return true;
-}
+inline bool printable(const std::string& text) { return is_printable(span_of(text)); }
 
 /// A text with question marks for its control characters and for what is no UTF-8, so that it is printable.
 inline std::string one_line(const std::string& text) {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <fovea/codec/any_picture.hpp>
 #include <fovea/decision/gauge.hpp>
 
 #include <common/arguments.hpp>
@@ -15,6 +14,7 @@
 #include <common/picture_file.hpp>
 #include <gauge/explain.hpp>
 #include <gauge/left_out.hpp>
+#include <gauge/load_recipe.hpp>
 #include <gauge/recipe_file.hpp>
 #include <gauge/report.hpp>
 
@@ -202,21 +202,8 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
         io.complain("fovea gauge: " + problem);
         return exit_failed;
     }
-    const Result<Span<const std::uint8_t>> text = io.storage().load(job.c_str());
-    if (!text) {
-        io.complain(file_problem(job, text.status(), io.storage()));
-        return exit_failed;
-    }
-    if (picture_format(*text) != PictureFormat::unknown) {
-        io.complain(job + ": a picture, not a recipe; --job takes the file that `fovea teach` wrote");
-        return exit_failed;
-    }
-    const RecipeFile file = read_recipe(std::string(text->begin(), text->end()));
-    if (!file.problem.empty()) {
-        io.complain(job + ":" + std::to_string(file.place.line) + ":" + std::to_string(file.place.column) +
-                    ": " + file.problem);
-        return exit_failed;
-    }
+    RecipeFile file;
+    if (!load_recipe(io, job, "--job takes", file)) return exit_failed;
     ExitCode code = exit_ok;
     for (std::size_t i = 0; i < images.size(); ++i)
         code = worse(code, detail::gauge_image(io, options, file, images[i], picture_of(i)));

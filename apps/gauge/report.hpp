@@ -9,6 +9,7 @@
 #include <fovea/decision/recipe.hpp>
 
 #include <common/text.hpp>
+#include <common/verdicts.hpp>
 #include <gauge/recipe_schema.hpp>
 
 namespace fovea::apps {
@@ -27,17 +28,6 @@ inline int places_of(const Feature& feature, const Scale& scale) {
     int places = 0;
     for (std::int64_t step = 1000000; step > scale.x_per_pixel / 100 && places < 6; step /= 10) ++places;
     return places;
-}
-
-inline const char* name_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::ok: return "ok";
-        case Verdict::low: return "low";
-        case Verdict::high: return "high";
-        case Verdict::not_ok: return "not_ok";
-        case Verdict::unmeasured: break;
-    }
-    return "unmeasured";
 }
 
 /// The standard deviation of a variance.
@@ -176,13 +166,13 @@ inline std::string json_part(const std::string& image, int index, std::size_t le
                 ",\"nominal\":" + shown_limit(feature.tolerance.nominal, feature, places) +
                 ",\"minus\":" + shown_limit(feature.tolerance.minus, feature, places) +
                 ",\"plus\":" + shown_limit(feature.tolerance.plus, feature, places) + ",\"verdict\":\"" +
-                name_of(result.verdict) + "\"";
+                word_of(result.verdict) + "\"";
         if (measured && result.measurement.blur.raw() > 0)
             text += ",\"blur_px\":" + number(decimal_of(root_of(result.measurement.blur)), 2);
         if (!measured) text += ",\"reason\":" + json_string(reason_of(part, i, recipe));
         text += "}";
     }
-    return text + "],\"verdict\":\"" + name_of(part.verdict) + "\"}\n";
+    return text + "],\"verdict\":\"" + word_of(part.verdict) + "\"}\n";
 }
 
 /// The line of an image in which no part was judged; the problem does not name the image again.

@@ -8,6 +8,7 @@
 
 #include <common/arguments.hpp>
 #include <common/io.hpp>
+#include <gauge/compile_command.hpp>
 #include <gauge/gauge_command.hpp>
 #include <gauge/teach_command.hpp>
 #include <make_part/make_part_command.hpp>
@@ -32,10 +33,11 @@ struct Entry {
 
 template <class Io>
 std::vector<Entry<Io>> commands() {
-    return {{gauge_help(), gauge_command<Io>},         {teach_help(), teach_command<Io>},
-            {make_part_help(), make_part_command<Io>}, {op_help(), op_command<Io>},
-            {sheet_help(), sheet_command<Io>},         {ops_help(), ops_command<Io>},
-            {info_help(), info_command<Io>},           {compare_help(), compare_command<Io>}};
+    return {{gauge_help(), gauge_command<Io>},     {teach_help(), teach_command<Io>},
+            {compile_help(), compile_command<Io>}, {make_part_help(), make_part_command<Io>},
+            {op_help(), op_command<Io>},           {sheet_help(), sheet_command<Io>},
+            {ops_help(), ops_command<Io>},         {info_help(), info_command<Io>},
+            {compare_help(), compare_command<Io>}};
 }
 
 template <class Io>

@@ -8,6 +8,7 @@
 #include <initializer_list>
 
 #include <fovea/base/arena.hpp>
+#include <fovea/base/random.hpp>
 #include <fovea/codec/any_picture.hpp>
 #include <fovea/codec/bmp.hpp>
 #include <fovea/codec/deflate.hpp>
@@ -16,6 +17,7 @@
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/jpeg_colour.hpp>
 #include <fovea/codec/jpeg_idct.hpp>
+#include <fovea/codec/packet.hpp>
 #include <fovea/codec/picture.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>
@@ -266,6 +268,39 @@ inline void codec_toml(Workspace&, Digest& digest) {
         }
         digest.add(reader.place());
         put_text(digest, reader.problem());
+    }
+}
+
+// ---- Packets ------------------------------------------------------------------------------
+
+/// Packets of every length, some with a byte changed, added, left out; read into rooms of several sizes.
+inline void codec_packet(Workspace& work, Digest& digest) {
+    Random random(77);
+    const Span<std::uint8_t> line = work.image[2];
+    std::uint8_t content[40];
+    std::uint8_t room[40];
+    for (const int room_size : {12, 29, 40}) {
+        PacketReader reader(Span<std::uint8_t>(room, room_size));
+        for (std::ptrdiff_t size = 0; size <= 40; ++size) {
+            constexpr std::uint8_t some[] = {0xC0, 0xDB, 0xDC, 0xDD, 0, 17};
+            for (std::uint8_t& byte : content) byte = some[random.below(6)];
+            const Span<const std::uint8_t> filled(content, size);
+            digest.add(packet_bytes(size));
+            const Result<std::ptrdiff_t> length = encode_packet(filled, line);
+            digest.add(length, encode_packet(filled, line.first(2 * size)));
+            if (!length) continue;
+            digest.add(line.first(*length));
+            const auto place = static_cast<std::ptrdiff_t>(random.below(static_cast<std::uint32_t>(*length)));
+            const std::uint32_t fault = random.below(4);
+            for (std::ptrdiff_t i = 0; i < *length; ++i) {
+                if (i == place && fault == 1) line[i] ^= 1;
+                if (i == place && fault == 2) continue;
+                if (i == place && fault == 3) reader.drop();
+                digest.add(reader.add(line[i]));
+                digest.add(reader.in_packet());
+            }
+            digest.add(reader.content());
+        }
     }
 }
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include <fovea/base/crc32.hpp>
+#include <fovea/decision/compiled_recipe.hpp>
 #include <fovea/decision/gauge.hpp>
 #include <fovea/decision/locate.hpp>
 #include <fovea/decision/measure_feature.hpp>
@@ -184,6 +186,42 @@ inline void decision_gauge(Workspace& work, Digest& digest) {
     made.recipe.locate.area_min = 1;
     for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8>) { run(src); });
     digest.add(gauge_scratch({112, 76}, made.recipe.locate, 3) > 0);
+}
+
+/// The recipe of the plate as bytes and back, whole and with every byte changed.
+inline void decision_compiled_recipe(Workspace& work, Digest& digest) {
+    const PlateRecipe made =
+        plate_recipe(part_picture(work, 0), Plate{}, work.scratch_span(), work.regions, work.holes);
+    const Span<std::uint8_t> out = work.image[2];
+    const Result<std::ptrdiff_t> length = encode_recipe(made.recipe, out);
+    digest.add(compiled_recipe_bytes(8), length);
+    if (!length) return;
+    const Span<std::uint8_t> bytes = out.first(*length);
+    digest.add(bytes, encode_recipe(made.recipe, bytes.first(*length - 1)));
+    RecipeOf<8> recipe;
+    RecipeOf<7> small;
+    const auto add_decoded = [&](Span<const std::uint8_t> from) {
+        digest.add(decode_recipe(from, recipe));
+        digest.add(recipe.features.size());
+        digest.add(decode_recipe(from, small));
+    };
+    add_decoded(bytes);
+    digest.add(encode_recipe(recipe, work.image[1]));
+    for (std::ptrdiff_t i = 0; i < *length; ++i) {
+        add_decoded(bytes.first(i));
+        bytes[i] ^= static_cast<std::uint8_t>(1 << i % 8);
+        add_decoded(bytes);
+        // The same with a checksum that is right: what a value out of its range does.
+        const std::uint32_t sum = crc32(bytes.first(*length - 4));
+        std::uint8_t before[4];
+        for (int k = 0; k < 4; ++k) {
+            before[k] = bytes[*length - 4 + k];
+            bytes[*length - 4 + k] = static_cast<std::uint8_t>(sum >> 8 * k);
+        }
+        add_decoded(bytes);
+        for (int k = 0; k < 4; ++k) bytes[*length - 4 + k] = before[k];
+        bytes[i] ^= static_cast<std::uint8_t>(1 << i % 8);
+    }
 }
 
 }  // namespace fovea::golden

@@ -147,4 +147,17 @@ inline void draw_texts(Workspace& work, Digest& digest) {
         for (int row = 0; row < glyph_height; ++row) digest.add(glyph_row(glyph, row));
 }
 
+inline void draw_utf8(Workspace&, Digest& digest) {
+    Random random(78);
+    for (int i = 0; i < 2000; ++i) {
+        constexpr unsigned char some[] = {0x00, 0x1f, 0x20, 0x7f, 0x80, 0x9f, 0xa0,
+                                          0xbd, 0xbf, 0xc2, 0xe2, 0xef, 0xf0, 0xff};
+        char text[6];
+        for (char& letter : text) letter = static_cast<char>(some[random.below(sizeof some)]);
+        const Span<const char> span(text, random.between(1, 6));
+        digest.add(is_no_utf8(first_code_point(span), span), is_printable(span));
+    }
+    for (std::uint32_t value = 0; value < 300; ++value) digest.add(is_control(value));
+}
+
 }  // namespace fovea::golden

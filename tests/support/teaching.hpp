@@ -73,11 +73,11 @@ inline std::string verdicts_of(const apps::Picture<Gray8>& picture, const Recipe
     if (status != Status::ok) return describe(status);
     std::string text;
     for (const PartResult& part : parts) {
-        text += (text.empty() ? "" : " ") + std::string(apps::name_of(part.verdict));
+        text += (text.empty() ? "" : " ") + std::string(apps::word_of(part.verdict));
         for (int i = 0; i < part.feature_count; ++i)
             if (part.features[i].verdict != Verdict::ok)
                 text +=
-                    " " + name_text(recipe.features[i].name) + ":" + apps::name_of(part.features[i].verdict);
+                    " " + name_text(recipe.features[i].name) + ":" + apps::word_of(part.features[i].verdict);
     }
     return text;
 }

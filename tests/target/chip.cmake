@@ -48,3 +48,12 @@ foreach(board IN LISTS fovea_boards)
     target_link_libraries(pins_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
   endif()
 endforeach()
+
+# Boards with a watchdog that the emulator has too.
+foreach(board IN ITEMS lm3s6965evb mps2_an500)
+  if(board IN_LIST fovea_boards)
+    add_executable(watchdog_${board} watchdog.cpp)
+    target_include_directories(watchdog_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_link_libraries(watchdog_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
+  endif()
+endforeach()

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <fovea/bare_metal/active_level.hpp>
+#include <fovea/bare_metal/cmsdk_watchdog.hpp>
 #include <fovea/bare_metal/pl011_uart.hpp>
 #include <fovea/bare_metal/pl061_pin.hpp>
 #include <fovea/bare_metal/polled_stream.hpp>
@@ -41,6 +42,13 @@ using TriggerPin = bare_metal::Pl061Input;
 inline OutputPin ok_pin() { return {0x40005000, 0, bare_metal::ActiveLevel::high}; }
 inline OutputPin not_ok_pin() { return {0x40005000, 1, bare_metal::ActiveLevel::high}; }
 inline TriggerPin trigger_pin() { return {0x40024000, 2, bare_metal::ActiveLevel::high}; }
+
+/// Bites after twice 1.5 seconds.
+using Watchdog = bare_metal::CmsdkWatchdog;
+inline Watchdog start_watchdog() {
+    bare_metal::word_at(0x400FE100) |= 1u << 3;  // RCGC0: it has its clock
+    return {0x40000000, clock_hz / 2 * 3};
+}
 
 [[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
 

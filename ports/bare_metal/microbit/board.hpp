@@ -8,6 +8,7 @@
 #include <fovea/bare_metal/active_level.hpp>
 #include <fovea/bare_metal/nrf51_pin.hpp>
 #include <fovea/bare_metal/nrf51_uart.hpp>
+#include <fovea/bare_metal/nrf51_watchdog.hpp>
 #include <fovea/bare_metal/polled_stream.hpp>
 #include <fovea/bare_metal/semihosting.hpp>
 #include <fovea/bare_metal/systick.hpp>
@@ -35,6 +36,10 @@ using TriggerPin = bare_metal::Nrf51Input;
 inline OutputPin ok_pin() { return {3, bare_metal::ActiveLevel::high}; }
 inline OutputPin not_ok_pin() { return {2, bare_metal::ActiveLevel::high}; }
 inline TriggerPin trigger_pin() { return {1, bare_metal::ActiveLevel::high}; }
+
+/// Bites after 3 seconds.
+using Watchdog = bare_metal::Nrf51Watchdog;
+inline Watchdog start_watchdog() { return Watchdog(3000); }
 
 [[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
 

@@ -209,7 +209,7 @@ TEST(Report, IsJsonWithTheSameKeysForEveryVerdict) {
             const auto json = parse_json(json_part("\xff\"\\.png", 0, 2, j.part, j.recipe));
             ASSERT_TRUE(json.has_value());
             EXPECT_EQ(json->keys, keys);
-            EXPECT_EQ((*json)["verdict"].text, apps::name_of(verdict));
+            EXPECT_EQ((*json)["verdict"].text, apps::word_of(verdict));
             ASSERT_EQ((*json)["features"].items.size(), static_cast<std::size_t>(features));
             for (const Json& feature : (*json)["features"].items) {
                 const std::vector<std::string> first(feature.keys.begin(), feature.keys.begin() + 7);
@@ -228,11 +228,11 @@ TEST(Report, TellsAMachineOfAnImageWithoutParts) {
 }
 
 TEST(Report, NamesEveryVerdict) {
-    EXPECT_STREQ(apps::name_of(Verdict::ok), "ok");
-    EXPECT_STREQ(apps::name_of(Verdict::low), "low");
-    EXPECT_STREQ(apps::name_of(Verdict::high), "high");
-    EXPECT_STREQ(apps::name_of(Verdict::not_ok), "not_ok");
-    EXPECT_STREQ(apps::name_of(Verdict::unmeasured), "unmeasured");
+    EXPECT_STREQ(apps::word_of(Verdict::ok), "ok");
+    EXPECT_STREQ(apps::word_of(Verdict::low), "low");
+    EXPECT_STREQ(apps::word_of(Verdict::high), "high");
+    EXPECT_STREQ(apps::word_of(Verdict::not_ok), "not_ok");
+    EXPECT_STREQ(apps::word_of(Verdict::unmeasured), "unmeasured");
 }
 
 TEST(Report, HasAReasonOnOneLineForEveryStatusOfEveryKind) {

@@ -30,7 +30,7 @@ protected:
     TestIo io;
 };
 
-const Words names = {"gauge", "teach", "make-part", "op", "ops", "info", "compare"};
+const Words names = {"gauge", "teach", "compile", "make-part", "op", "ops", "info", "compare"};
 
 TEST_F(Tool, ListsItsCommandsWhenAskedForHelp) {
     for (const char* word : {"--help", "-h", "help"}) {

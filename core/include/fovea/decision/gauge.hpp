@@ -14,6 +14,7 @@
 #include <fovea/decision/locate.hpp>
 #include <fovea/decision/measure_feature.hpp>
 #include <fovea/decision/recipe.hpp>
+#include <fovea/decision/recipe_range.hpp>
 #include <fovea/decision/tolerance.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/number/integer.hpp>
@@ -57,11 +58,8 @@ constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int part
 /// Errors   as find_parts(); bad_argument also for a scale out of its range; no part at all is ok with an
 ///          empty list; capacity_exceeded leaves the largest parts in the list, measured
 /// Source   book sec. 6.2
-inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std::uint8_t> scratch,
+inline Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::uint8_t> scratch,
                     ListView<PartResult> parts);
-
-/// True if a scale can be used: both positive, within their bounds, and none more than four times the other.
-constexpr bool scale_in_range(const Scale& scale);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -70,11 +68,11 @@ namespace detail {
 /// Room for holes: a few for each part.
 constexpr int gauge_holes(int parts) { return 16 * parts; }
 
-inline void measure_part(const PartView& view, const Recipe& recipe, Span<std::uint8_t> scratch,
+inline void measure_part(const PartView& view, RecipeView recipe, Span<std::uint8_t> scratch,
                          PartResult& part) {
-    part.feature_count = recipe.features.size();
+    part.feature_count = static_cast<int>(recipe.features.size());
     part.verdict = part.pose.orientation == Status::ok ? Verdict::ok : Verdict::unmeasured;
-    for (int i = 0; i < recipe.features.size(); ++i) {
+    for (int i = 0; i < part.feature_count; ++i) {
         const Feature& feature = recipe.features[i];
         FeatureResult& result = part.features[i];
         result = FeatureResult();
@@ -99,23 +97,16 @@ inline void measure_part(const PartView& view, const Recipe& recipe, Span<std::u
 
 }  // namespace detail
 
-constexpr bool scale_in_range(const Scale& scale) {
-    const auto in_range = [](std::int64_t value) {
-        return value >= min_units_per_pixel && value <= max_units_per_pixel;
-    };
-    return in_range(scale.x_per_pixel) && in_range(scale.y_per_pixel) &&
-           scale.x_per_pixel <= 4 * scale.y_per_pixel && scale.y_per_pixel <= 4 * scale.x_per_pixel;
-}
-
 constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts) {
     return arena_bytes<Region>(parts) + arena_bytes<Hole>(detail::gauge_holes(parts)) +
            maximum(find_parts_scratch(size, rule), measure_feature_scratch(size));
 }
 
-inline Status gauge(ImageView<const Gray8> image, const Recipe& recipe, Span<std::uint8_t> scratch,
+inline Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::uint8_t> scratch,
                     ListView<PartResult> parts) {
     if (Status s = detail::check_find_parts(image, recipe.locate); s != Status::ok) return s;
-    if (!scale_in_range(recipe.scale)) return Status::bad_argument;
+    if (!scale_in_range(recipe.scale) || recipe.features.size() > Recipe::max_features)
+        return Status::bad_argument;
     const int capacity = parts.capacity();
     const std::int64_t lists =
         arena_bytes<Region>(capacity) + arena_bytes<Hole>(detail::gauge_holes(capacity));

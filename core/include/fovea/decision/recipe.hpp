@@ -114,13 +114,30 @@ struct Feature {
     Tolerance tolerance;   ///< in the unit; degrees for angle, a number for hole_count
 };
 
-struct Recipe {
-    static constexpr int max_features = 24;
+/// A recipe with room for so many features. A chip may keep room for fewer than a Recipe has: each is 184
+/// bytes.
+template <int Capacity>
+struct RecipeOf {
+    static constexpr int max_features = Capacity;
 
     char name[Feature::max_name + 1] = {};
     Scale scale;
     LocateRule locate;
-    List<Feature, max_features> features;
+    List<Feature, Capacity> features;
+};
+using Recipe = RecipeOf<24>;
+
+/// What is measured and how, wherever it lies.
+struct RecipeView {
+    const Scale& scale;
+    const LocateRule& locate;
+    Span<const Feature> features;
+
+    template <int Capacity>
+    constexpr RecipeView(const RecipeOf<Capacity>& recipe)
+        : scale(recipe.scale),
+          locate(recipe.locate),
+          features(recipe.features.begin(), recipe.features.size()) {}
 };
 
 /// The length of a name that ends with a zero or at its capacity.

@@ -22,6 +22,15 @@ constexpr bool needs_outline(const LocateRule& rule) {
            rule.pose != PoseRule::outline;
 }
 
+/// True if a scale can be used: both positive, within their bounds, and none more than four times the other.
+constexpr bool scale_in_range(const Scale& scale) {
+    const auto in_range = [](std::int64_t value) {
+        return value >= min_units_per_pixel && value <= max_units_per_pixel;
+    };
+    return in_range(scale.x_per_pixel) && in_range(scale.y_per_pixel) &&
+           scale.x_per_pixel <= 4 * scale.y_per_pixel && scale.y_per_pixel <= 4 * scale.x_per_pixel;
+}
+
 namespace detail {
 
 constexpr bool within(std::int64_t value, std::int64_t low, std::int64_t high) {

@@ -28,6 +28,17 @@ struct CodePoint {
 /// Source  The Unicode Standard, version 15.0, sec. 3.9: table 3-7 and "Substitution of Maximal Subparts"
 constexpr CodePoint first_code_point(Span<const char> text);
 
+/// True if the first code point of a text was read from bytes that are no UTF-8.
+constexpr bool is_no_utf8(CodePoint read, Span<const char> text);
+
+/// True for the control characters of ASCII and of Latin 1, which terminals may obey.
+constexpr bool is_control(std::uint32_t code_point) {
+    return code_point < 0x20 || (code_point >= 0x7f && code_point < 0xa0);
+}
+
+/// True for UTF-8 without control characters, also for no text at all: a name that stays on its line.
+constexpr bool is_printable(Span<const char> text);
+
 // ---- Implementation ---------------------------------------------------------------
 
 constexpr CodePoint first_code_point(Span<const char> text) {
@@ -54,6 +65,21 @@ constexpr CodePoint first_code_point(Span<const char> text) {
         high = 0xbf;
     }
     return {value, more + 1};
+}
+
+constexpr bool is_no_utf8(CodePoint read, Span<const char> text) {
+    if (read.value != replacement_character) return false;
+    // U+FFFD itself is written so.
+    return read.bytes != 3 || text[0] != '\xef' || text[1] != '\xbf' || text[2] != '\xbd';
+}
+
+constexpr bool is_printable(Span<const char> text) {
+    for (Span<const char> rest = text; !rest.empty();) {
+        const CodePoint read = first_code_point(rest);
+        if (is_no_utf8(read, rest) || is_control(read.value)) return false;
+        rest = rest.from(read.bytes);
+    }
+    return true;
 }
 
 }  // namespace fovea
