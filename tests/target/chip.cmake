@@ -50,9 +50,11 @@ foreach(board IN LISTS fovea_boards)
 endforeach()
 
 # Boards with a watchdog that the emulator has too.
+add_custom_target(watchdogs)
 foreach(board IN ITEMS lm3s6965evb mps2_an500)
   if(board IN_LIST fovea_boards)
     add_executable(watchdog_${board} watchdog.cpp)
+    add_dependencies(watchdogs watchdog_${board})
     target_include_directories(watchdog_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(watchdog_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
   endif()

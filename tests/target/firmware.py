@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Drives firmware_gauge on an emulated board from outside: firmware.py BOARD PROGRAM FOVEA [--recipe-inside]
 
+    firmware.py recipe FOVEA FILE     compiles the recipe that is used here, for a program that has it inside
+
 Recipes and frames go over the serial line, triggers and verdicts over the pins. What the board measures must be what
 the tool FOVEA measures in the same pictures, digit for digit. Then all that can go wrong does: each time the board must
 say what, leave both pins inactive, and judge the next good frame.
@@ -136,17 +138,22 @@ def faults(firmware, good, wanted, room):
     ]
 
 
-def drive(firmware, fovea, folder, recipe_inside):
-    def tool(*words):
-        done = subprocess.run([fovea, *words], cwd=folder, capture_output=True, text=True)
-        return done.stdout
+def tool_in(fovea, folder):
+    return lambda *words: subprocess.run([fovea, *words], cwd=folder, capture_output=True, text=True).stdout
 
-    # The part fits the memory of the smallest board.
+
+def make_files(tool):
+    """Pictures that fit the memory of the smallest board, and their recipe."""
     common = ["--size", "64x48", "--cut", "7x5", "--holes", "10,0,4", "--blur", "0.7", "--noise", "2", "--angle", "9"]
     tool("make-part", *common, "--plate", "44x24", "--out", "good.pgm")
     tool("make-part", *common, "--plate", "41x24", "--out", "short.pgm")
     tool("teach", "--out", "plate.toml", "--known-length", "44", "good.pgm")
     tool("compile", "plate.toml", "--out", "plate.bin")
+
+
+def drive(firmware, fovea, folder, recipe_inside):
+    tool = tool_in(fovea, folder)
+    make_files(tool)
     told = [json.loads(text) for text in tool("gauge", "--job", "plate.toml", "--json", "good.pgm", "short.pgm").splitlines()]
     good, short = Picture(folder / "good.pgm"), Picture(folder / "short.pgm")
     good_told, short_told = map(as_told_by_a_board, told)
@@ -227,6 +234,12 @@ def drive(firmware, fovea, folder, recipe_inside):
 
 
 def main():
+    if sys.argv[1] == "recipe":
+        fovea, file = map(Path, sys.argv[2:])
+        with tempfile.TemporaryDirectory() as folder:
+            make_files(tool_in(fovea.resolve(), folder))
+            file.write_bytes((Path(folder) / "plate.bin").read_bytes())
+        return
     name, program, fovea, *rest = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         board = Board(name, program, folder)

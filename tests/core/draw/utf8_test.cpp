@@ -96,5 +96,29 @@ TEST(FirstCodePoint, EndsOnAnyBytes) {
             }
 }
 
+TEST(Utf8, IsPrintableWithoutControlCharactersAndForeignBytes) {
+    const auto printable = [](const std::string& text) {
+        return is_printable({text.data(), static_cast<std::ptrdiff_t>(text.size())});
+    };
+    EXPECT_TRUE(printable(""));
+    EXPECT_TRUE(printable("\xc3\x98 12 \xc2\xb5m"));
+    EXPECT_TRUE(printable("\xef\xbf\xbd"));  // the replacement character itself
+    EXPECT_TRUE(printable("\xc2\xa0"));
+    for (const char* text : {"a\n", "\x7f", "\xc2\x80", "\xc2\x9f", "a\xff", "\xef\xbf", "\xf0\x9f\x98"})
+        EXPECT_FALSE(printable(text)) << text;
+}
+
+TEST(Utf8, TellsTheReplacementCharacterFromWhatItReplaces) {
+    const auto replaced = [](const std::string& text) {
+        const Span<const char> span(text.data(), static_cast<std::ptrdiff_t>(text.size()));
+        return is_no_utf8(first_code_point(span), span);
+    };
+    EXPECT_FALSE(replaced("\xef\xbf\xbd"));
+    EXPECT_FALSE(replaced("a"));
+    EXPECT_TRUE(replaced("\xef\xbf"));
+    EXPECT_TRUE(replaced("\xf0\x9f\x98"));  // three bytes of four
+    EXPECT_TRUE(replaced("\x80"));
+}
+
 }  // namespace
 }  // namespace fovea::test

@@ -43,12 +43,13 @@ private:
 
 static_assert(hal::is_output_pin_v<Pin> && hal::is_input_pin_v<Pin> && hal::is_edge_pin_v<Pin>);
 
-/// Time that passes when a test says so.
+/// Time that passes when a test says so, and by a step with every question.
 class Clock {
 public:
-    std::int64_t microseconds() { return now; }
+    std::int64_t microseconds() { return now += step; }
 
     std::int64_t now = 0;
+    std::int64_t step = 0;
 };
 
 static_assert(hal::is_clock_v<Clock>);
