@@ -39,7 +39,8 @@ inline void motion_blocks(Workspace& work, Digest& digest) {
                 for (int y = 0; y < size.height; ++y)
                     for (int x = 0; x < size.width; ++x) {
                         const bool thing = x / 9 == frame && y < 20;
-                        image(x, y) = static_cast<Gray8>((thing ? 20 : light) + (random.next() >> 28));
+                        image(x, y) =
+                            static_cast<Gray8>((thing ? 20 : light) + static_cast<int>(random.next() >> 28));
                     }
                 if (frame == 4) motion.forget();
                 if (frame % 2 == 0) {
