@@ -44,7 +44,7 @@ inline namespace FOVEA_ISA {
 /// The strongest run of bright pixels in a row, of equal ones the first; an empty() one where none has the
 /// width and the strength that are asked for. The options must be right: line_peaks() looks at them.
 ///
-/// Units     1/256 px, and pixels; strengths up to 255 * 32767, moments of up to 2^38 in 64 bits
+/// Units     1/256 px, and pixels; strengths up to 255 * 32767, moments below 2^37 in 64 bits
 /// Rounding  x to the nearest, ties up
 inline LinePeak line_peak(const Gray8* row, int width, const LinePeakOptions& options);
 
@@ -69,7 +69,7 @@ public:
     LinePeakAccumulator(const LinePeakOptions& options, Span<LinePeak> peaks)
         : options_(options), peaks_(peaks) {}
 
-    inline Status begin(Size size) const;
+    Status begin(Size size) const;
     void add_row(const Gray8* row, int width, int y) const { peaks_[y] = line_peak(row, width, options_); }
 
 private:

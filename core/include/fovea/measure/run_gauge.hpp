@@ -52,11 +52,11 @@ public:
     using Input = Gray8;
     explicit RunWidthAccumulator(int width_min) : width_min_(width_min) {}
 
-    inline Status begin(Size size);
-    inline void add_row(const Gray8* row, int width, int y);
+    Status begin(Size size);
+    void add_row(const Gray8* row, int width, int y);
     /// Adds the rows of another strip of the same image.
-    inline void merge(const RunWidthAccumulator& other);
-    inline Result<RunWidths> result() const;
+    void merge(const RunWidthAccumulator& other);
+    Result<RunWidths> result() const;
 
 private:
     int width_min_;

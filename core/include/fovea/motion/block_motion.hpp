@@ -71,17 +71,17 @@ public:
                            Span<std::uint8_t> scratch)
         : options_(options), background_(background), scratch_(scratch) {}
 
-    inline Status begin(Size size);
-    inline void add_row(const Gray8* row, int width, int y);
+    Status begin(Size size);
+    void add_row(const Gray8* row, int width, int y);
     /// What moved since the frames before, once the last row has come.
-    inline Result<BlockMotion> finish();
+    Result<BlockMotion> finish();
     /// Makes the next frame the background.
     void forget() { learned_ = {}; }
 
 private:
-    inline void close_blocks(int width, int y);
-    inline void learn();
-    inline int median_difference() const;
+    void close_blocks(int width, int y);
+    void learn();
+    int median_difference() const;
     int difference(std::ptrdiff_t i) const { return int{means_[i]} - int{background_[i]}; }
 
     BlockMotionOptions options_;
