@@ -220,11 +220,11 @@ TEST(BlockMotion, SaysWhatIsWrongAndLeavesTheBackground) {
     for (const int block : {0, 2, 12, 256, -16}) refused(block, 8, 4);
     for (const int difference_min : {0, 256}) refused(16, difference_min, 4);
     for (const int follow : {-1, 9}) refused(16, 8, follow);
-    // A row is missing at the end, or in between, or there is one too many.
+    // A row is missing at the end, or in between, or there are too many.
     std::vector<Gray8> row(20, 200);
     for (const int missing : {19, 7, -1}) {
         ASSERT_EQ(watch.accumulator.begin(size), Status::ok);
-        for (int y = 0; y < (missing < 0 ? 21 : 20); ++y)
+        for (int y = 0; y < (missing < 0 ? 64 : 20); ++y)
             if (y != missing) watch.accumulator.add_row(row.data(), 20, y);
         EXPECT_EQ(watch.accumulator.finish().status(), Status::out_of_range);
     }

@@ -16,7 +16,7 @@
 #include <fovea/number/fixed.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/isa.hpp>
-#include <fovea/simd/sums.hpp>
+#include <fovea/simd/short_sums.hpp>
 
 namespace fovea {
 
@@ -110,6 +110,7 @@ namespace detail {
 
 /// Largest sum of a block in 1/256 levels, and half of the count for its rounding.
 inline constexpr int most_block = 128;
+static_assert(most_block <= simd::most_stretch);
 static_assert(std::int64_t{most_block} * most_block * (255 * 256 + 1) < std::int64_t{1} << 31);
 
 constexpr bool in_range(const BlockMotionOptions& options) {
@@ -139,16 +140,11 @@ inline Status BlockMotionAccumulator::begin(Size size) {
 }
 
 inline void BlockMotionAccumulator::add_row(const Gray8* row, int width, int y) {
-    in_order_ = in_order_ && y == next_;
+    in_order_ = in_order_ && y == next_ && y < size_.height;
     ++next_;
     if (!in_order_) return;
-    const int block = options_.block;
-    int x = 0;
-    for (std::uint32_t& sum : sums_) {
-        sum += static_cast<std::uint32_t>(simd::sum_of_bytes(row + x, minimum(block, width - x)));
-        x += block;
-    }
-    if (next_ % block == 0 || next_ == size_.height) close_blocks(width, y);
+    simd::add_stretches(row, width, options_.block, sums_.data());
+    if (next_ % options_.block == 0 || next_ == size_.height) close_blocks(width, y);
 }
 
 /// Row y is the last of its blocks.
