@@ -13,6 +13,7 @@
 #include <fovea/measure/fit_circle.hpp>
 #include <fovea/measure/fit_line.hpp>
 #include <fovea/measure/half_turn.hpp>
+#include <fovea/measure/run_gauge.hpp>
 #include <fovea/number/trigonometry.hpp>
 #include <fovea/segment/connected_components.hpp>
 #include <fovea/segment/fine_moments.hpp>
@@ -35,6 +36,9 @@ inline void put(Digest& digest, const Circle& circle) { digest.add(circle.centre
 inline void put(Digest& digest, const CircleFit& fit) { digest.add(fit.circle, fit.rms, fit.used); }
 inline void put(Digest& digest, const Asymmetry& a) { digest.add(a.sss, a.sst, a.stt, a.ttt); }
 inline void put(Digest& digest, const HalfTurn& turn) { digest.add(turn.turned, turn.margin); }
+inline void put(Digest& digest, const RunWidths& widths) {
+    digest.add(widths.rows, widths.first_row, widths.last_row, widths.narrowest, widths.widest, widths.mean);
+}
 template <class Model>
 void put(Digest& digest, const Consensus<Model>& consensus) {
     digest.add(consensus.model, consensus.limit);
@@ -319,6 +323,25 @@ inline void measure_half_turn(Workspace&, Digest& digest) {
     Moments pixel;
     pixel.add_run(4, 5, 4);
     digest.add(asymmetry(*central_moments(pixel), FineAngle()), half_turn(Asymmetry()));
+}
+
+inline void measure_run_widths(Workspace& work, Digest& digest) {
+    Random random(23);
+    for (const Size size : {Size{1, 1}, Size{3, 70}, Size{97, 40}, Size{1600, 5}}) {
+        const ImageView<Gray8> src = work.view<Gray8>(0, size);
+        for (int width_min = 0; width_min < 9; ++width_min) {
+            fill_clumps(src, random);
+            digest.add(run_widths(src, width_min), longest_run(src.row(0), size.width));
+            RunWidthAccumulator lower(width_min + 1);
+            RunWidthAccumulator upper(width_min + 1);
+            digest.add(lower.begin(size), upper.begin(size));
+            for (int y = 0; y < size.height; ++y)
+                (y < size.height / 2 ? upper : lower).add_row(src.row(y), size.width, y);
+            lower.merge(upper);
+            digest.add(upper.result(), lower.result());
+        }
+    }
+    digest.add(run_widths({}, 1));
 }
 
 }  // namespace fovea::golden

@@ -20,8 +20,10 @@
 #include <golden/feature_vectors.hpp>
 #include <golden/filter_vectors.hpp>
 #include <golden/image_vectors.hpp>
+#include <golden/light_section_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
+#include <golden/motion_vectors.hpp>
 #include <golden/operator_vectors.hpp>
 #include <golden/segment_vectors.hpp>
 #include <golden/statistics_vectors.hpp>
@@ -109,6 +111,9 @@ inline constexpr Vector vectors[] = {
     {"measure/fit_line", measure_fit_line},
     {"measure/half_turn", measure_half_turn},
     {"measure/least_median", measure_least_median},
+    {"measure/run_widths", measure_run_widths},
+    {"light_section/line_peaks", light_section_line_peaks},
+    {"motion/blocks", motion_blocks},
     {"codec/any_picture", codec_any_picture},
     {"codec/bmp", codec_bmp},
     {"codec/encode_bmp", codec_encode_bmp},

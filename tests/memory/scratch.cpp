@@ -16,6 +16,7 @@
 #include <fovea/decision/gauge.hpp>
 #include <fovea/feature/find_circles.hpp>
 #include <fovea/measure/edge_probe.hpp>
+#include <fovea/motion/block_motion.hpp>
 #include <fovea/segment/connected_components.hpp>
 
 using namespace fovea;
@@ -65,6 +66,7 @@ int main() {
         {"connected_components, 64 labels",
          [](Size size) { return connected_components_scratch(size.width, 64); }},
         {"find_circles of 10 to 100 px", [](Size size) { return find_circles_scratch(size, {}); }},
+        {"block_motion, blocks of 16", [](Size size) { return block_motion_scratch(size, 16); }},
         {"edge_probe", [](Size size) { return std::int64_t{2} * edge_probe_scratch(size); }},
         {"find_parts", [](Size size) { return find_parts_scratch(size, {}); }},
         {"find_parts after an opening", [&](Size size) { return find_parts_scratch(size, opened); }},

@@ -5,40 +5,67 @@
 
 #include <board.hpp>
 #include <fovea/bare_metal/memory_layout.hpp>
+#include <fovea/hal/feed.hpp>
+#include <fovea/hal/line_source.hpp>
 #include <target/lines.hpp>
 #include <target/print.hpp>
 
 namespace {
-fovea::target::LineGauge gauge;
-fovea::Gray8 line[fovea::target::LineScene::size.width];
+using namespace fovea;
+
+target::LineGauge gauge;
+Gray8 line[target::LineGauge::size.width];
+
+/// A sensor that shows a scene, once. It has one line of memory, and every second time it is asked its line
+/// is not there yet.
+template <class Scene>
+class SceneLines {
+public:
+    explicit SceneLines(Scene& scene) : scene_(scene) {}
+
+    static Size size() { return Scene::size; }
+    Status start() {
+        rows_left_ = Scene::size.height;
+        return Status::ok;
+    }
+    Result<Span<const std::uint8_t>> next() {
+        waiting_ = !waiting_;
+        if (waiting_ || rows_left_ == 0) return Span<const std::uint8_t>();
+        --rows_left_;
+        scene_.take(line);
+        return Span<const std::uint8_t>(line);
+    }
+
+private:
+    Scene& scene_;
+    int rows_left_ = 0;
+    bool waiting_ = false;
+};
+static_assert(hal::is_line_source_v<SceneLines<target::PlateScene>>);
 
 struct Printer {
-    fovea::board::Serial& serial;
+    board::Serial& serial;
 
-    void operator()(const char* text) const { fovea::target::print(serial, text); }
+    void operator()(const char* text) const { target::print(serial, text); }
     void operator()(std::int64_t number) const {
-        fovea::target::print(serial, " ");
-        fovea::target::print_long(serial, number);
+        target::print(serial, " ");
+        target::print_long(serial, number);
     }
 };
 }  // namespace
 
 int main() {
-    using namespace fovea;
     auto serial = board::start_serial();
-    for (int frame = 0; frame < target::LineScene::frames; ++frame)
-        gauge.measure(
-            [frame](auto& program, Span<std::uint8_t> scratch) {
-                target::LineScene scene(frame);
-                if (Status s = program.start(scene.size, Border::replicate, scratch); s != Status::ok)
-                    return s;
-                while (!program.complete()) {
-                    scene.take(line);
-                    if (Status s = program.push(line); s != Status::ok) return s;
-                }
-                return Status::ok;
-            },
-            Printer{serial});
+    gauge.measure_all(
+        [](auto& scene, auto& program, Span<std::uint8_t> scratch) {
+            SceneLines lines(scene);
+            if (Status s = hal::begin_frame(lines, program, Border::replicate, scratch); s != Status::ok)
+                return s;
+            Result<bool> complete = false;
+            while (complete && !*complete) complete = hal::pump(lines, program);
+            return complete.status();
+        },
+        Printer{serial});
     target::print(serial, "# bytes of stack ");
     target::print_long(serial, bare_metal::deepest_stack());
     target::print(serial, " of ");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// tests/target/lines.txt: the frames of the scene as whole pictures, sent through the same streams at once.
+// tests/target/lines.txt: the frames of the scenes as whole pictures, sent through the same streams at once.
 #include <cinttypes>
 #include <cstdio>
 #include <vector>
@@ -17,15 +17,13 @@ struct Printer {
 int main() {
     using namespace fovea;
     static target::LineGauge gauge;
-    for (int frame = 0; frame < target::LineScene::frames; ++frame)
-        gauge.measure(
-            [frame](auto& program, Span<std::uint8_t> scratch) {
-                target::LineScene scene(frame);
-                std::vector<Gray8> pixels(static_cast<std::size_t>(scene.size.area()));
-                const ImageView<Gray8> picture(pixels.data(), scene.size, scene.size.width);
-                for (int y = 0; y < scene.size.height; ++y) scene.take(picture.row(y));
-                return program.run(picture, Border::replicate, scratch);
-            },
-            Printer{});
+    gauge.measure_all(
+        [](auto& scene, auto& program, Span<std::uint8_t> scratch) {
+            std::vector<Gray8> pixels(static_cast<std::size_t>(scene.size.area()));
+            const ImageView<Gray8> picture(pixels.data(), scene.size, scene.size.width);
+            for (int y = 0; y < scene.size.height; ++y) scene.take(picture.row(y));
+            return program.run(picture, Border::replicate, scratch);
+        },
+        Printer{});
     return 0;
 }
