@@ -187,6 +187,68 @@ def consumers(folder):
     yield "an older version", broken("d", "CMakeLists.txt", "VERSION 0.1.0", "VERSION 0.0.9"), "find_package, configure FAILED"
 
 
+@alarm
+def manifests(folder):
+    number = 0
+
+    def trial(name, what, words, file=None, old="", new="", extra="docs/b.txt"):
+        nonlocal number
+        number += 1
+        tree = write(folder / f"{number}", {extra: ""})
+        for path in "core", "hal", "zephyr", "ports/zephyr", "ports/arduino":
+            shutil.copytree(PROJECT / path, tree / path, dirs_exist_ok=True)
+        for path in "CMakeLists.txt", "LICENSE", "README.md", "library.json", "idf_component.yml":
+            shutil.copy(PROJECT / path, tree)
+        write(tree, {f"{path}/a.txt": "" for path in ("apps", "docs", "tests", "toolchains")})
+        if file:
+            replace(tree / file, old, new)
+        return f"{name}, {what}", [CHECKS / "manifests.py", tree, name], words
+
+    yml, kconfig, module = "zephyr/module.yml", "ports/zephyr/Kconfig", "ports/zephyr/CMakeLists.txt"
+    yield trial("zephyr", "as it is", None)
+    yield trial("zephyr", "another name", "name is 'fover'", yml, "name: fovea", "name: fover")
+    yield trial("zephyr", "a field that Zephyr does not know", "no such field: build.make", yml, "cmake:", "make:")
+    yield trial("zephyr", "no Kconfig", "build.kconfig is missing", yml, "  kconfig: ports/zephyr/Kconfig\n", "")
+    yield trial("zephyr", "a path that is not there", "no such path: ports/gone/Kconfig", yml, "zephyr/K", "gone/K")
+    yield trial("zephyr", "no YAML", "cannot be read", yml, "name: ", "name: [")
+    yield trial("zephyr", "a folder that is not there", "cmake failed", module, "/hal/include", "/hal/included")
+    yield trial("zephyr", "headers without the symbol", "although CONFIG_FOVEA is not set", module, "if(CONFIG_FOVEA)", "if(TRUE)")
+    yield trial("zephyr", "an older C++", "FOVEA is y with STD_CPP14", kconfig, " && !STD_CPP14", "")
+    yield trial("zephyr", "the minimal library", "REQUIRES_FULL_LIBCPP is n with STD_CPP17", kconfig, "\tselect REQUIRES_FULL_LIBCPP\n", "")
+
+    yml = "idf_component.yml"
+    yield trial("esp_idf", "as it is", None)
+    yield trial("esp_idf", "another version", "version is '0.1.1'", yml, "0.1.0", "0.1.1")
+    yield trial("esp_idf", "another licence", "license is 'BSD'", yml, "MIT", "BSD")
+    yield trial("esp_idf", "no description", "description is missing", yml, "description:", "#")
+    yield trial("esp_idf", "a path that is not there", "no such path: gone/**/*", yml, "docs/", "gone/")
+    yield trial("esp_idf", "headers that are left out", "Include directory", yml, "docs/", "hal/")
+    yield trial("esp_idf", "a project before the component", "project command is not scriptable", "CMakeLists.txt",
+                "if(ESP_PLATFORM)", "project(early)\nif(ESP_PLATFORM)")
+    yield trial("esp_idf", "no registration", "cmake failed", "CMakeLists.txt", "if(ESP_PLATFORM)", "if(FALSE)")
+
+    manifest = "library.json"
+    yield trial("platformio", "as it is", None)
+    yield trial("platformio", "another version", "version is '0.2.0'", manifest, "0.1.0", "0.2.0")
+    yield trial("platformio", "no name", "name is missing", manifest, '"name": "fovea",', "")
+    yield trial("platformio", "no JSON", "cannot be read", manifest, '"MIT",', '"MIT"')
+    yield trial("platformio", "a path that is not there", "no such path: README.txt", manifest, "README.md", "README.txt")
+    yield trial("platformio", "headers that are not exported", "no such path in the package: hal/include", manifest, '"hal/include", "lib', '"lib')
+    yield trial("platformio", "a source among the headers", "span.cpp would be compiled", extra="core/include/fovea/base/span.cpp")
+
+    manifest, script = "ports/arduino/library.properties", "ports/arduino/library.cmake"
+    yield trial("arduino", "as it is", None)
+    yield trial("arduino", "another version", "version is '0.1'", manifest, "0.1.0", "0.1")
+    yield trial("arduino", "no maintainer", "maintainer is missing", manifest, "maintainer=fovea contributors\n", "")
+    yield trial("arduino", "an empty field", "author is empty", manifest, "author=fovea contributors", "author=")
+    yield trial("arduino", "a category of nobody", "no such category: Vision", manifest, "Data Processing", "Vision")
+    yield trial("arduino", "a header that is not there", "no such header in src: vision.h", manifest, "fovea.h", "vision.h")
+    yield trial("arduino", "headers that are not in src", "does not name a type", script, "${library}/src)", "${library}/source)")
+    yield trial("arduino", "a macro that is not put aside", "in expansion of macro", script, " round word", " round")
+    yield trial("arduino", "a sketch that counts wrong", "printed 'parts: 1", "ports/arduino/examples/count_parts/count_parts.ino",
+                "{50, 30, 15, 20}", "{15, 15, 15, 15}")
+
+
 # ---- Docs ---------------------------------------------------------------------------------
 
 PROGRAM = """```cpp
