@@ -32,16 +32,17 @@ file(WRITE ${library}/src/fovea.h "// SPDX-License-Identifier: MIT
 
 #if __cplusplus < 201703L
 #error \"fovea needs C++17: take a core that compiles with -std=gnu++17 or newer\"
-#endif
-#if __INT_MAX__ < 0x7FFFFFFF
+#elif __INT_MAX__ < 0x7FFFFFFF
 #error \"fovea needs a processor whose int has 32 bits\"
-#endif
+#else
 
 ${put_aside}
 
 ${headers}
 
 ${taken_back}
+
+#endif
 ")
 
 execute_process(COMMAND ${CMAKE_COMMAND} -E tar cf fovea.zip --format=zip fovea WORKING_DIRECTORY ${out}

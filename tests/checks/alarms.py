@@ -245,6 +245,7 @@ def manifests(folder):
     yield trial("arduino", "a header that is not there", "no such header in src: vision.h", manifest, "fovea.h", "vision.h")
     yield trial("arduino", "headers that are not in src", "does not name a type", script, "${library}/src)", "${library}/source)")
     yield trial("arduino", "a macro that is not put aside", "in expansion of macro", script, " round word", " round")
+    yield trial("arduino", "an older C++ that gets through", "does not say that it needs C++17", script, "201703L", "201402L")
     yield trial("arduino", "a sketch that counts wrong", "printed 'parts: 1", "ports/arduino/examples/count_parts/count_parts.ino",
                 "{50, 30, 15, 20}", "{15, 15, 15, 15}")
 
@@ -271,7 +272,8 @@ DOCS = {
     "core/include/fovea/base/status.hpp": HEAD,
     "core/include/fovea/pixelwise/invert.hpp": HEAD + "namespace fovea {\nconstexpr int inverted(int level) { return 255 - level; }\n}\n",
     "README.md": "# Root\n\nSee [inversion](docs/operators/README.md#to-invert) and [elsewhere](https://example.invalid).\n\n"
-                 "```cpp\nint half(int a) { return a / 2; }\n```\n\n```cpp fragment\nStatus s = ...\n```\n",
+                 "```cpp\nint half(int a) { return a / 2; }\n```\n\n```cpp fragment\nStatus s = ...\n```\n\n"
+                 "```cpp file core/include/fovea/pixelwise/invert.hpp\n#pragma once\nnamespace fovea {\n```\n",
     "docs/operators/README.md": "# Operators\n\n## To `invert`\n\nIn `pixelwise/invert.hpp`, `inverted` [it](../../README.md).\n\n"
                                 + PROGRAM,
 }
@@ -297,6 +299,9 @@ def snippets(folder):
     yield trial("an output that ends early", "README.md:20: the program prints '254'", page, "\n254\n", "\n")
     yield trial("an output of nothing", "an output without a program", "README.md", "cpp fragment", "text output")
     yield trial("a block without an end", "has no end", page, "254\n```", "254\n")
+    yield trial("a listing of other lines", "README.md:15: this is not what core", "README.md", "namespace fovea", "namespace fover")
+    yield trial("a listing with a line left out", "this is not what core", header, "#pragma once\n", "#pragma once\n\n")
+    yield trial("a listing of no file", "README.md:13: no such file: core", "README.md", "pixelwise/invert.hpp\n#", "pixelwise/gone.hpp\n#")
     yield trial("a kind of block that nobody checks", "no such kind of block: cpp sketch", "README.md", "fragment", "sketch")
     yield trial("a dead link", "README.md:3: a dead link: docs/gone.md", "README.md", "docs/operators/README.md#to-invert", "docs/gone.md")
     yield trial("a heading that is not there", "no such heading: docs/operators/README.md#to-erode", "README.md", "#to-invert", "#to-erode")
@@ -608,7 +613,23 @@ def target_pins(folder):
                                  f"{PROJECT}/tests/target/pins.py microbit {name}"], words
 
 
-target_alarms = [target_binary, target_chip, target_pins]
+def target_new_board(folder):
+    """A port that cannot be taken into another project, or a board whose clock stands."""
+    def broken(name, file, old, new):
+        tree = copy_of_project(folder / name)
+        shutil.copytree(PROJECT / "toolchains", tree / "toolchains")
+        if file:
+            replace(tree / file, old, new)
+        return [CHECKS / "new_board", tree, tree / "build"]
+
+    yield "the smallest board", broken("good", None, "", ""), None
+    yield "files of a project that is another's", broken("a", "ports/bare_metal/CMakeLists.txt", "${CMAKE_CURRENT_FUNCTION_LIST_DIR}",
+                                                         "${PROJECT_SOURCE_DIR}/ports/bare_metal"), "configure FAILED"
+    yield "no stack", broken("b", "ports/bare_metal/rv32_virt/memory.ld", "stack_size", "stack_sizes"), "build FAILED"
+    yield "a clock at no address", broken("c", "ports/bare_metal/rv32_virt/board.hpp", "0x0200BFF8", "0x02000000"), "run FAILED"
+
+
+target_alarms = [target_binary, target_chip, target_pins, target_new_board]
 
 
 # ---- All of them --------------------------------------------------------------------------

@@ -250,6 +250,9 @@ def arduino(project, place):
         find(name, "an example is examples/NAME/NAME.ino")
         return
 
+    older = subprocess.run(["g++", "-std=gnu++14", "-fsyntax-only", "-x", "c++", library / "src/fovea.h"], capture_output=True, text=True)
+    if older.stderr.count("error: ") != 1 or "fovea needs C++17" not in older.stderr:
+        find(name, "fovea.h does not say that it needs C++17, and no more")
     hardware, build = CONSUMERS / "arduino/hardware", place / "build"
     build.mkdir()
     if runs(name, "arduino-builder", "-compile", "-quiet", "-hardware", "/usr/share/arduino-builder", "-hardware", hardware,
