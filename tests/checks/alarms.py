@@ -187,6 +187,69 @@ def consumers(folder):
     yield "an older version", broken("d", "CMakeLists.txt", "VERSION 0.1.0", "VERSION 0.0.9"), "find_package, configure FAILED"
 
 
+@alarm
+def manifests(folder):
+    number = 0
+
+    def trial(name, what, words, file=None, old="", new="", extra="docs/b.txt"):
+        nonlocal number
+        number += 1
+        tree = write(folder / f"{number}", {extra: ""})
+        for path in "core", "hal", "zephyr", "ports/zephyr", "ports/arduino":
+            shutil.copytree(PROJECT / path, tree / path, dirs_exist_ok=True)
+        for path in "CMakeLists.txt", "LICENSE", "README.md", "library.json", "idf_component.yml":
+            shutil.copy(PROJECT / path, tree)
+        write(tree, {f"{path}/a.txt": "" for path in ("apps", "docs", "tests", "toolchains")})
+        if file:
+            replace(tree / file, old, new)
+        return f"{name}, {what}", [CHECKS / "manifests.py", tree, name], words
+
+    yml, kconfig, module = "zephyr/module.yml", "ports/zephyr/Kconfig", "ports/zephyr/CMakeLists.txt"
+    yield trial("zephyr", "as it is", None)
+    yield trial("zephyr", "another name", "name is 'fover'", yml, "name: fovea", "name: fover")
+    yield trial("zephyr", "a field that Zephyr does not know", "no such field: build.make", yml, "cmake:", "make:")
+    yield trial("zephyr", "no Kconfig", "build.kconfig is missing", yml, "  kconfig: ports/zephyr/Kconfig\n", "")
+    yield trial("zephyr", "a path that is not there", "no such path: ports/gone/Kconfig", yml, "zephyr/K", "gone/K")
+    yield trial("zephyr", "no YAML", "cannot be read", yml, "name: ", "name: [")
+    yield trial("zephyr", "a folder that is not there", "cmake failed", module, "/hal/include", "/hal/included")
+    yield trial("zephyr", "headers without the symbol", "although CONFIG_FOVEA is not set", module, "if(CONFIG_FOVEA)", "if(TRUE)")
+    yield trial("zephyr", "an older C++", "FOVEA is y with STD_CPP14", kconfig, " && !STD_CPP14", "")
+    yield trial("zephyr", "the minimal library", "REQUIRES_FULL_LIBCPP is n with STD_CPP17", kconfig, "\tselect REQUIRES_FULL_LIBCPP\n", "")
+
+    yml = "idf_component.yml"
+    yield trial("esp_idf", "as it is", None)
+    yield trial("esp_idf", "another version", "version is '0.1.1'", yml, "0.1.0", "0.1.1")
+    yield trial("esp_idf", "another licence", "license is 'BSD'", yml, "MIT", "BSD")
+    yield trial("esp_idf", "no description", "description is missing", yml, "description:", "#")
+    yield trial("esp_idf", "a path that is not there", "no such path: gone/**/*", yml, "docs/", "gone/")
+    yield trial("esp_idf", "headers that are left out", "Include directory", yml, "docs/", "hal/")
+    yield trial("esp_idf", "a project before the component", "project command is not scriptable", "CMakeLists.txt",
+                "if(ESP_PLATFORM)", "project(early)\nif(ESP_PLATFORM)")
+    yield trial("esp_idf", "no registration", "cmake failed", "CMakeLists.txt", "if(ESP_PLATFORM)", "if(FALSE)")
+
+    manifest = "library.json"
+    yield trial("platformio", "as it is", None)
+    yield trial("platformio", "another version", "version is '0.2.0'", manifest, "0.1.0", "0.2.0")
+    yield trial("platformio", "no name", "name is missing", manifest, '"name": "fovea",', "")
+    yield trial("platformio", "no JSON", "cannot be read", manifest, '"MIT",', '"MIT"')
+    yield trial("platformio", "a path that is not there", "no such path: README.txt", manifest, "README.md", "README.txt")
+    yield trial("platformio", "headers that are not exported", "no such path in the package: hal/include", manifest, '"hal/include", "lib', '"lib')
+    yield trial("platformio", "a source among the headers", "span.cpp would be compiled", extra="core/include/fovea/base/span.cpp")
+
+    manifest, script = "ports/arduino/library.properties", "ports/arduino/library.cmake"
+    yield trial("arduino", "as it is", None)
+    yield trial("arduino", "another version", "version is '0.1'", manifest, "0.1.0", "0.1")
+    yield trial("arduino", "no maintainer", "maintainer is missing", manifest, "maintainer=fovea contributors\n", "")
+    yield trial("arduino", "an empty field", "author is empty", manifest, "author=fovea contributors", "author=")
+    yield trial("arduino", "a category of nobody", "no such category: Vision", manifest, "Data Processing", "Vision")
+    yield trial("arduino", "a header that is not there", "no such header in src: vision.h", manifest, "fovea.h", "vision.h")
+    yield trial("arduino", "headers that are not in src", "does not name a type", script, "${library}/src)", "${library}/source)")
+    yield trial("arduino", "a macro that is not put aside", "in expansion of macro", script, " round word", " round")
+    yield trial("arduino", "an older C++ that gets through", "does not say that it needs C++17", script, "201703L", "201402L")
+    yield trial("arduino", "a sketch that counts wrong", "printed 'parts: 1", "ports/arduino/examples/count_parts/count_parts.ino",
+                "{50, 30, 15, 20}", "{15, 15, 15, 15}")
+
+
 # ---- Docs ---------------------------------------------------------------------------------
 
 PROGRAM = """```cpp
@@ -209,7 +272,8 @@ DOCS = {
     "core/include/fovea/base/status.hpp": HEAD,
     "core/include/fovea/pixelwise/invert.hpp": HEAD + "namespace fovea {\nconstexpr int inverted(int level) { return 255 - level; }\n}\n",
     "README.md": "# Root\n\nSee [inversion](docs/operators/README.md#to-invert) and [elsewhere](https://example.invalid).\n\n"
-                 "```cpp\nint half(int a) { return a / 2; }\n```\n\n```cpp fragment\nStatus s = ...\n```\n",
+                 "```cpp\nint half(int a) { return a / 2; }\n```\n\n```cpp fragment\nStatus s = ...\n```\n\n"
+                 "```cpp file core/include/fovea/pixelwise/invert.hpp\n#pragma once\nnamespace fovea {\n```\n",
     "docs/operators/README.md": "# Operators\n\n## To `invert`\n\nIn `pixelwise/invert.hpp`, `inverted` [it](../../README.md).\n\n"
                                 + PROGRAM,
 }
@@ -235,6 +299,9 @@ def snippets(folder):
     yield trial("an output that ends early", "README.md:20: the program prints '254'", page, "\n254\n", "\n")
     yield trial("an output of nothing", "an output without a program", "README.md", "cpp fragment", "text output")
     yield trial("a block without an end", "has no end", page, "254\n```", "254\n")
+    yield trial("a listing of other lines", "README.md:15: this is not what core", "README.md", "namespace fovea", "namespace fover")
+    yield trial("a listing with a line left out", "this is not what core", header, "#pragma once\n", "#pragma once\n\n")
+    yield trial("a listing of no file", "README.md:13: no such file: core", "README.md", "pixelwise/invert.hpp\n#", "pixelwise/gone.hpp\n#")
     yield trial("a kind of block that nobody checks", "no such kind of block: cpp sketch", "README.md", "fragment", "sketch")
     yield trial("a dead link", "README.md:3: a dead link: docs/gone.md", "README.md", "docs/operators/README.md#to-invert", "docs/gone.md")
     yield trial("a heading that is not there", "no such heading: docs/operators/README.md#to-erode", "README.md", "#to-invert", "#to-erode")
@@ -546,7 +613,23 @@ def target_pins(folder):
                                  f"{PROJECT}/tests/target/pins.py microbit {name}"], words
 
 
-target_alarms = [target_binary, target_chip, target_pins]
+def target_new_board(folder):
+    """A port that cannot be taken into another project, or a board whose clock stands."""
+    def broken(name, file, old, new):
+        tree = copy_of_project(folder / name)
+        shutil.copytree(PROJECT / "toolchains", tree / "toolchains")
+        if file:
+            replace(tree / file, old, new)
+        return [CHECKS / "new_board", tree, tree / "build"]
+
+    yield "the smallest board", broken("good", None, "", ""), None
+    yield "files of a project that is another's", broken("a", "ports/bare_metal/CMakeLists.txt", "${CMAKE_CURRENT_FUNCTION_LIST_DIR}",
+                                                         "${PROJECT_SOURCE_DIR}/ports/bare_metal"), "configure FAILED"
+    yield "no stack", broken("b", "ports/bare_metal/rv32_virt/memory.ld", "stack_size", "stack_sizes"), "build FAILED"
+    yield "a clock at no address", broken("c", "ports/bare_metal/rv32_virt/board.hpp", "0x0200BFF8", "0x02000000"), "run FAILED"
+
+
+target_alarms = [target_binary, target_chip, target_pins, target_new_board]
 
 
 # ---- All of them --------------------------------------------------------------------------

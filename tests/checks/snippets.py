@@ -7,6 +7,7 @@ usage: snippets.py [ROOT]     prints one line a finding and fails if there is on
     ```cpp            compiled as it stands; a block with a main() is also linked and run, and must answer 0
     ```cpp fragment   not compiled: a signature, a shape of code
     ```text output    what the block before it prints, exactly
+    ```cpp file PATH  lines of a file, as they stand there one after the other; in any language
 """
 import os
 import re
@@ -24,6 +25,7 @@ PATIENCE_SECONDS = 20
 PLAIN_WORDS = {**os.environ, "LC_ALL": "C"}  # of the compiler
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+LISTING = re.compile(r"\w+ file (\S+)")
 MAIN = re.compile(r"^int main\(", re.MULTILINE)
 
 findings = []
@@ -95,7 +97,7 @@ def programs_of(page):
                 before.output = block
         elif block.kind == "cpp":
             programs.append(block)
-        elif block.kind.startswith(("c++", "cpp")) and block.kind != "cpp fragment":
+        elif block.kind.startswith(("c++", "cpp")) and block.kind != "cpp fragment" and not LISTING.fullmatch(block.kind):
             find(page.path, block.line, f"no such kind of block: {block.kind}")
         before = block
     return programs
@@ -150,6 +152,23 @@ def check_code(root, pages):
         if verdict:
             find(block.page, *verdict)
     return len(programs)
+
+
+def check_listings(root, pages):
+    """A listing must stand in its file; where it does not, the first line that is not there."""
+    count = 0
+    for block in (block for page in pages for block in page.blocks):
+        if not (listing := LISTING.fullmatch(block.kind)):
+            continue
+        count += 1
+        path = root / listing[1]
+        if not path.is_file():
+            find(block.page, block.line, f"no such file: {listing[1]}")
+        elif "\n" + block.text() not in "\n" + (text := path.read_text()):
+            lines = text.split("\n")
+            row = next((i for i, line in enumerate(block.lines) if line not in lines), 0)
+            find(block.page, block.line + 1 + row, f"this is not what {listing[1]} says")
+    return count
 
 
 # ---- Links --------------------------------------------------------------------------------
@@ -207,8 +226,10 @@ def main():
     links = check_links(root, pages)
     operators = check_operators(root, pages)
     programs = check_code(root, pages)
+    listings = check_listings(root, pages)
     print("\n".join(findings) if findings else
-          f"snippets: {programs} compile, {links} links lead somewhere, {operators} functions are told of")
+          f"snippets: {programs} compile, {listings} are lines of files, {links} links lead somewhere, "
+          f"{operators} functions are told of")
     return 1 if findings else 0
 
 
