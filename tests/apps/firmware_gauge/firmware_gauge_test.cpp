@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The firmware on simulated ports: what the emulated boards cannot do, such as a broken pin. All the rest is in
-// tests/target/firmware.py.
+// The firmware on simulated ports: what the emulated boards cannot do, such as a broken pin. All the rest is
+// in tests/target/firmware.py.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any bytes as a recipe: as they are, and as fields with a head and a checksum that are right. What is refused
-// leaves the recipe as it was; what is read can be written, and reads the same again.
+// Any bytes as a recipe: as they are, and as fields with a head and a checksum that are right. What is
+// refused leaves the recipe as it was; what is read can be written, and reads the same again.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

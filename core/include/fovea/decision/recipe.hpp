@@ -114,7 +114,7 @@ struct Feature {
     Tolerance tolerance;   ///< in the unit; degrees for angle, a number for hole_count
 };
 
-/// A recipe with room for so many features. A chip may keep room for fewer than a Recipe has: each is 184
+/// A recipe with room for so many features. A chip may keep room for fewer than a Recipe has: each is 192
 /// bytes.
 template <int Capacity>
 struct RecipeOf {

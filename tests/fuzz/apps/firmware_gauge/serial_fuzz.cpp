@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Anything on the serial line of firmware_gauge, at any time, with any edges: it goes on, never says OK and not
-// OK at once, and has a pin active only behind a frame that it judged.
+// Anything on the serial line of firmware_gauge, at any time, with any edges: it goes on, never says OK and
+// not OK at once, and has a pin active only behind a frame that it judged.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
