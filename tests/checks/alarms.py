@@ -383,6 +383,15 @@ def golden(folder):
 
 
 @alarm
+def general_registers(folder):
+    def trial(name, text):
+        return [CHECKS / "general_registers", "g++", write(folder, {f"{name}.cpp": text}) / f"{name}.cpp"]
+
+    yield "an operator", trial("good", "#include <fovea/pixelwise/threshold.hpp>\n"), None
+    yield "a float in it", trial("bad", "int half(int a) { return static_cast<int>(a * 0.5); }\n"), "error: "
+
+
+@alarm
 def stack(folder):
     def trial(name, source, budget="", whole=""):
         place = write(folder / name, {"unit.cpp": source, "budget": budget})
@@ -613,6 +622,60 @@ def target_pins(folder):
                                  f"{PROJECT}/tests/target/pins.py microbit {name}"], words
 
 
+DEPTH = """
+#include <cstdint>
+int fovea_sink;
+using Step = int (*)(int);
+[[gnu::noinline]] int large(int n) {
+    volatile char room[600];
+    for (int i = 0; i < 600; ++i) room[i] = static_cast<char>(n + i);
+    return room[n & 511];
+}
+[[gnu::noinline]] int small(int n) { return fovea_sink + n; }
+volatile Step chosen = STEP;
+[[gnu::noinline]] int turn(int n) { return TURN; }
+int main() { return turn(fovea_sink) & 1; }
+"""
+
+
+def target_call_depth(folder):
+    """call_depth.py must see a chain that is too deep, also behind a pointer, recursion, and a run that went deeper."""
+    def depth(name, turn="small(n)", step="small", stack=1024, measured=0):
+        place = write(folder / name, {"depth.cpp": DEPTH})
+        return ["sh", "-c", f"cd {place} && arm-none-eabi-g++ -std=c++17 -mcpu=cortex-m0 -mthumb -Os -fno-exceptions -fcallgraph-info=su "
+                            f"'-DTURN={turn}' -DSTEP={step} -c depth.cpp -o depth.obj && "
+                            f"{MICROBIT} -Wl,--defsym=fovea_stack_size={stack} depth.obj -lgcc -o program && "
+                            f"{CHECKS}/call_depth.py program . --measured {measured}"]
+
+    yield "a shallow program", depth("shallow", measured=50), None
+    yield "a deep one with room", depth("deep", turn="large(n)"), None
+    yield "one that is too deep", depth("too_deep", turn="large(n)", stack=512), "bytes of stack, and there are 512"
+    yield "behind a pointer", depth("pointer", turn="chosen(n)", step="large", stack=512), "bytes of stack, and there are 512"
+    yield "recursion", depth("recursion", turn="n > 0 ? turn(n - 1) + 1 + turn(n / 2) : 0"), "recursion: "
+    yield "a frame of any size", depth("any", turn="({ volatile char room[n + 8]; room[n] = 1; room[n / 2]; })"), \
+        "a frame of unknown size"
+    yield "a run that went deeper", depth("measured", measured=700), "a run took 700 bytes"
+    yield "no notes", ["sh", "-c", f"mkdir -p {folder}/none && {CHECKS}/call_depth.py {folder}/shallow/program {folder}/none"], \
+        "no notes"
+
+
+def target_firmware(folder):
+    """firmware.py must see a wrong value, an error that is not told, a pin that stays, and a watchdog that sleeps."""
+    fovea = PROJECT / "build/tool/apps/fovea"
+    limits = "-DFOVEA_FRAME_BYTES=3072 -DFOVEA_SCRATCH_BYTES=7168 -DFOVEA_LINE_BYTES=384 -DFOVEA_FEATURES=6 -DFOVEA_PARTS=1"
+    faults = [("nothing", "", "", None),
+              ("value", "(result.measurement.value, places)", "(result.measurement.value + Decimal{1}, places)", "the tool measured"),
+              ("pins", "set_outputs(Verdict::unmeasured);\n        line_.text(\"{\");", "line_.text(\"{\");", "OK and not OK must be"),
+              ("order", 'if (number_at(rest, 0) != next_line_) return fail("line missing");', "", "a line that is missing")]
+    for name, good, bad, words in faults:
+        tree = copy_of_project(folder / name)
+        if good:
+            replace(tree / "apps/firmware_gauge/firmware_gauge.hpp", good, bad)
+        yield name, ["sh", "-c", f"cd {tree} && {MICROBIT} -Iapps {limits} -Wl,--defsym=fovea_stack_size=3328 "
+                                 f"apps/firmware_gauge/main.cpp -lgcc -o firmware && "
+                                 f"{PROJECT}/tests/target/firmware.py microbit firmware {fovea}"], words
+
+
 def target_new_board(folder):
     """A port that cannot be taken into another project, or a board whose clock stands."""
     def broken(name, file, old, new):
@@ -629,7 +692,7 @@ def target_new_board(folder):
     yield "a clock at no address", broken("c", "ports/bare_metal/rv32_virt/board.hpp", "0x0200BFF8", "0x02000000"), "run FAILED"
 
 
-target_alarms = [target_binary, target_chip, target_pins, target_new_board]
+target_alarms = [target_binary, target_chip, target_pins, target_call_depth, target_firmware, target_new_board]
 
 
 # ---- All of them --------------------------------------------------------------------------

@@ -32,6 +32,7 @@ endforeach()
 
 foreach(board IN LISTS fovea_boards)
   add_executable(lines_${board} lines.cpp)
+  target_compile_options(lines_${board} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fcallgraph-info=su>)
   target_include_directories(lines_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(lines_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
 endforeach()

@@ -19,6 +19,5 @@ int main() {
     // Longer than any patience of a board.
     while (clock.microseconds() < 4000000) watchdog.feed();
     target::print(serial, "fed\n");
-    for (;;) {
-    }
+    for (;;) __asm volatile("");
 }

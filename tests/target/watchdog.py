@@ -9,7 +9,7 @@ from pathlib import Path
 def main():
     board, program = sys.argv[1:]
     emulate = Path(__file__).resolve().parent / "emulate"
-    process = subprocess.Popen([emulate, board, program], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen([emulate, board, program], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, errors="replace")
     try:
         for wanted in ("start", "fed", "start"):
             seen = process.stdout.readline().strip()

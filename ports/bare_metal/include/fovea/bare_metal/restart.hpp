@@ -9,8 +9,8 @@ namespace fovea::bare_metal {
 
 [[noreturn]] inline void restart() {
     word_at(0xE000ED0C) = 0x05FA0004;  // the key, SYSRESETREQ
-    for (;;) {
-    }
+    // Clang would take away a loop in which nothing happens.
+    for (;;) __asm volatile("");
 }
 
 }  // namespace fovea::bare_metal

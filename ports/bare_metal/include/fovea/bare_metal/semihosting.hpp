@@ -23,8 +23,7 @@ namespace fovea::bare_metal {
         : "r"(block)
         : "a0", "a1", "memory");
 #endif
-    for (;;) {
-    }
+    for (;;) __asm volatile("");  // Clang would take away a loop of nothing
 }
 
 }  // namespace fovea::bare_metal
