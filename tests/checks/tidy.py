@@ -33,7 +33,8 @@ def main():
     flags = ["-x", "c++", "-std=c++17", "-Wno-pragma-once-outside-header", *(f"-I{folder}" for folder in folders)]
     headers = {folder: sorted(folder.rglob("*.hpp")) for folder in folders}
     # Source file -> the headers that are judged with it, as a regular expression.
-    units = {path: "" for path in sorted((root / "apps").rglob("*.cpp"))}
+    # Programs for boards are compiled for these alone.
+    units = {path: "" for path in sorted((root / "apps").rglob("*.cpp")) if "<board.hpp>" not in path.read_text()}
     for name, judged in ("core", "core"), ("others", "(hal|ports|apps)"):
         unit = options.cache.resolve() / f"{name}.cpp"
         unit.write_text("".join(f"#include <{path.relative_to(folder)}>\n" for folder in folders for path in headers[folder]

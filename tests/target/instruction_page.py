@@ -29,8 +29,8 @@ Made by `tests/target/instruction_page.py`. How many instructions a processor ex
 320x240, counted exactly on emulated boards (`tests/target/count_instructions.cpp`); `tests/run target` compares every
 count. Instructions are no time: flash that waits, caches and instructions that take more than a cycle are not in them.
 
-GCC 12.2 and Clang 14, -O2, without floats; M0 by -Os, M4 by -O3, and GCC for the M55 without its vectorizer of straight
-code. Parameters are the presets of `fovea ops`. Four discs with noise of 16 levels are the picture.
+GCC 12.2 and Clang 14, -O2, without floats; M0 by -Os, M4 by -O3, and GCC without its vectorizer of straight
+code but for the M7. Parameters are the presets of `fovea ops`. Four discs with noise of 16 levels are the picture.
 
 ## Beside OpenMV
 
