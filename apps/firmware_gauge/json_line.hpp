@@ -12,7 +12,8 @@
 namespace fovea::apps {
 
 /// Writes text as the line takes it. Waits for room as long as its patience allows, then drops what is left
-/// of the line: a line that is stuck must not stop the verdicts.
+/// of the line: a line that is stuck must not stop the verdicts. The next one then begins with an end, so
+/// that it stands for itself.
 template <class Serial, class Clock, class Watchdog>
 class JsonLine {
 public:
@@ -44,11 +45,17 @@ public:
     }
     void end() {
         put('\n');
+        torn_ = dropped_;
         dropped_ = false;
     }
 
 private:
     void put(char letter) {
+        if (torn_) send('\n');
+        torn_ = false;
+        send(letter);
+    }
+    void send(char letter) {
         if (dropped_) return;
         const auto byte = static_cast<std::uint8_t>(letter);
         const std::int64_t begin = clock_.microseconds();
@@ -64,7 +71,8 @@ private:
     Serial& serial_;
     Clock& clock_;
     Watchdog& watchdog_;
-    bool dropped_ = false;
+    bool dropped_ = false;  ///< the rest of this line
+    bool torn_ = false;     ///< the line before has no end
 };
 
 }  // namespace fovea::apps

@@ -162,14 +162,17 @@ TEST_F(FirmwareGauge, AStuckLineStopsNoVerdict) {
     send(apps::PacketKind::trigger);
     send_frame({{20, 20, 40, 20}});
     // Time passes while it waits for room.
-    struct Reset {
-        int& room;
-        ~Reset() { room = 1 << 20; }
-    } reset{serial.room};
     clock.step = 1000;
     EXPECT_EQ(said(), "");
     EXPECT_TRUE(is(true, false));
     EXPECT_FALSE(watchdog.barks());
+    // Three letters of a line, and then no more: the next line is a line of its own.
+    serial.room = 3;
+    send(apps::PacketKind::trigger);
+    EXPECT_EQ(said(), "\n{\"");
+    serial.room = 1 << 20;
+    send(apps::PacketKind::state);
+    EXPECT_EQ(said().rfind("\n{\"board\":\"bench\"", 0), 0u);
 }
 
 TEST_F(FirmwareGauge, TellsOfPinsThatDoNotObey) {

@@ -35,6 +35,22 @@ template <class To, class From>
     return to;
 }
 
+/// The vector that lies at an address, of any alignment.
+template <class Raw>
+[[gnu::always_inline]] inline Raw load_raw(const void* from) {
+#if defined(__clang__) && defined(__ARM_FEATURE_MVE)
+    // Clang 14 loads the halves of a memcpy() and puts them together lane by lane.
+    struct [[gnu::packed, gnu::may_alias]] Loose {
+        Raw raw;
+    };
+    return static_cast<const Loose*>(from)->raw;
+#else
+    Raw raw;
+    std::memcpy(&raw, from, sizeof raw);
+    return raw;
+#endif
+}
+
 #if FOVEA_BYTES >= 8
 
 using RawBytes [[gnu::vector_size(FOVEA_BYTES)]] = std::uint8_t;

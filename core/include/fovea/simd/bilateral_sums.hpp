@@ -64,11 +64,7 @@ inline constexpr int bilateral_bytes = 2;
 
 #if FOVEA_BYTES >= 16
 
-[[gnu::always_inline]] inline RawWords words_at(const std::uint8_t* from) {
-    RawWords words;
-    std::memcpy(&words, from, sizeof words);
-    return words;
-}
+[[gnu::always_inline]] inline RawWords words_at(const std::uint8_t* from) { return load_raw<RawWords>(from); }
 /// The sum, at most 65535.
 [[gnu::always_inline]] inline RawWords held_sum(RawWords a, RawWords b) {
 #if FOVEA_BYTES == 32 && defined(__AVX2__)
@@ -162,9 +158,7 @@ public:
             const int centre = pixel(centre_, i);
             means[i] = static_cast<std::uint16_t>(moments_[i] < 0 ? centre - by : centre + by);
         }
-        RawWords words;
-        std::memcpy(&words, means, sizeof words);
-        return words;
+        return load_raw<RawWords>(means);
     }
 
 private:

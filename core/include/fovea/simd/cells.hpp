@@ -31,11 +31,7 @@ using Unsigned [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
 inline constexpr int places = FOVEA_BYTES / 4;
 
 [[gnu::always_inline]] inline Ints all_ints(std::int32_t k) { return Ints{} + k; }
-[[gnu::always_inline]] inline Ints load_ints(const std::int32_t* from) {
-    Ints ints;
-    std::memcpy(&ints, from, sizeof ints);
-    return ints;
-}
+[[gnu::always_inline]] inline Ints load_ints(const std::int32_t* from) { return load_raw<Ints>(from); }
 [[gnu::always_inline]] inline void store_ints(Ints ints, std::int32_t* to) {
     std::memcpy(to, &ints, sizeof ints);
 }

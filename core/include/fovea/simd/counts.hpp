@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include <fovea/simd/backend.hpp>
 #include <fovea/simd/isa.hpp>
 
 #if FOVEA_BYTES >= 16 && defined(__AVX2__)
@@ -44,19 +45,13 @@ alignas(32) inline constexpr std::uint8_t count_steps[32] = {0, 0, 0, 0, 0, 0, 0
 using CountBytes [[gnu::vector_size(16)]] = std::uint8_t;
 
 [[gnu::always_inline]] inline void count_in(std::uint8_t* counts, int value) {
-    CountBytes bytes;
-    CountBytes steps;
-    std::memcpy(&bytes, counts, sizeof bytes);
-    std::memcpy(&steps, count_steps + 15 - value, sizeof steps);
-    bytes += steps;
+    auto bytes = load_raw<CountBytes>(counts);
+    bytes += load_raw<CountBytes>(count_steps + 15 - value);
     std::memcpy(counts, &bytes, sizeof bytes);
 }
 [[gnu::always_inline]] inline void count_out(std::uint8_t* counts, int value) {
-    CountBytes bytes;
-    CountBytes steps;
-    std::memcpy(&bytes, counts, sizeof bytes);
-    std::memcpy(&steps, count_steps + 15 - value, sizeof steps);
-    bytes -= steps;
+    auto bytes = load_raw<CountBytes>(counts);
+    bytes -= load_raw<CountBytes>(count_steps + 15 - value);
     std::memcpy(counts, &bytes, sizeof bytes);
 }
 

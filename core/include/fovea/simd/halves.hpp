@@ -39,9 +39,7 @@ inline constexpr int half_lanes = lanes / 2;
 #else
     std::uint16_t values[half_lanes];
     for (int i = 0; i < half_lanes; ++i) values[i] = from[i];
-    RawWords words;
-    std::memcpy(&words, values, sizeof words);
-    return words;
+    return load_raw<RawWords>(values);
 #endif
 }
 
@@ -134,7 +132,7 @@ inline void transpose_square(const std::uint8_t* src, std::ptrdiff_t src_stride,
     using Row [[gnu::vector_size(16)]] = std::uint8_t;
     Row a[16];
     Row b[16];
-    for (int i = 0; i < 16; ++i) std::memcpy(&a[i], src + i * src_stride, sizeof a[i]);
+    for (int i = 0; i < 16; ++i) a[i] = load_raw<Row>(src + i * src_stride);
     // Four rounds of interleaving row i with row i + 8.
     const auto interleave = [](const Row* from, Row* to) {
         for (int i = 0; i < 8; ++i) {

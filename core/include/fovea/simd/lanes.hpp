@@ -19,11 +19,7 @@ struct Bytes {
     RawBytes raw;
 
     [[gnu::always_inline]] static Bytes all(std::uint8_t value) { return {all_bytes(value)}; }
-    [[gnu::always_inline]] static Bytes load(const std::uint8_t* from) {
-        Bytes bytes;
-        std::memcpy(&bytes.raw, from, static_cast<std::size_t>(lanes));
-        return bytes;
-    }
+    [[gnu::always_inline]] static Bytes load(const std::uint8_t* from) { return {load_raw<RawBytes>(from)}; }
     /// The first count pixels, zeros behind them.
     [[gnu::always_inline]] static Bytes load(const std::uint8_t* from, int count) {
         Bytes bytes{};
@@ -98,10 +94,8 @@ struct Words {
     }
     /// lanes numbers of 16 bits, or the first count of them and zeros behind.
     [[gnu::always_inline]] static Words load(const std::uint16_t* from) {
-        RawWords first;
-        RawWords second;
-        std::memcpy(&first, from, sizeof first);
-        std::memcpy(&second, from + lanes / 2, sizeof second);
+        const auto first = load_raw<RawWords>(from);
+        const auto second = load_raw<RawWords>(from + lanes / 2);
         return {even_words(first, second), odd_words(first, second)};
     }
     [[gnu::always_inline]] static Words load(const std::uint16_t* from, int count) {

@@ -9,6 +9,7 @@
 
 #include <fovea/base/assert.hpp>
 #include <fovea/base/span.hpp>
+#include <fovea/simd/backend.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
 
@@ -95,11 +96,7 @@ public:
 
 private:
     // Column x of its plane lies at byte 2 * (x / 2), which is x or x - 1.
-    [[gnu::always_inline]] static RawWords raw(const std::uint8_t* from) {
-        RawWords words;
-        std::memcpy(&words, from, sizeof words);
-        return words;
-    }
+    [[gnu::always_inline]] static RawWords raw(const std::uint8_t* from) { return load_raw<RawWords>(from); }
     std::uint8_t* place(int x) const { return (x & 1 ? odd_ - 1 : even_) + x; }
 
     std::uint8_t* even_ = nullptr;

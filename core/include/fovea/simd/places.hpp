@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include <fovea/simd/backend.hpp>
 #include <fovea/simd/isa.hpp>
 
 namespace fovea {
@@ -82,8 +83,7 @@ inline void curve_places(std::int32_t base, std::int32_t start, std::int32_t slo
 #if FOVEA_BYTES >= 16
     using Ints [[gnu::vector_size(FOVEA_BYTES)]] = std::int32_t;
     constexpr int step = FOVEA_BYTES / 4;
-    Ints at;
-    std::memcpy(&at, count_up, sizeof at);
+    auto at = load_raw<Ints>(count_up);
     for (int i = 0; i < curve_length; i += step) {
         Ints sum = at * slope + start;
         // i * (16 - i) has 7 bits; a straight line spares the products.
@@ -104,10 +104,8 @@ inline void split_places(const std::int32_t* pairs, int count, PlaceRun& run) {
 #if FOVEA_BYTES >= 16
     using Ints [[gnu::vector_size(16)]] = std::int32_t;
     for (; i + 4 <= count; i += 4) {
-        Ints a;
-        Ints b;
-        std::memcpy(&a, pairs + 2 * i, sizeof a);
-        std::memcpy(&b, pairs + 2 * i + 4, sizeof b);
+        const auto a = load_raw<Ints>(pairs + 2 * i);
+        const auto b = load_raw<Ints>(pairs + 2 * i + 4);
         const Ints x = __builtin_shufflevector(a, b, 0, 2, 4, 6);
         const Ints y = __builtin_shufflevector(a, b, 1, 3, 5, 7);
         std::memcpy(run.x + i, &x, sizeof x);
@@ -129,8 +127,7 @@ inline void offset_places(std::int32_t x, std::int32_t y, const std::int16_t* pa
     constexpr bool big_endian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
     Ints column = {x, x + 256, x + 512, x + 768};
     for (; i + 4 <= count; i += 4) {
-        Ints both;
-        std::memcpy(&both, pairs + 2 * i, sizeof both);
+        const auto both = load_raw<Ints>(pairs + 2 * i);
         const Ints low = (both << 16) >> 16;
         const Ints high = both >> 16;
         const Ints to_x = column + ((big_endian ? high : low) << bits);

@@ -86,9 +86,7 @@ inline void blend_pairs(const std::int16_t* line, const std::int32_t* at, const 
         for (int i = 0; i < taps_length; ++i) std::memcpy(cells + i, line + at[i], sizeof cells[i]);
         for (int i = 0; i < taps_length; i += FOVEA_BYTES) {
             const auto lanes_from = [&](int k) {
-                Ints by;
-                std::memcpy(&by, weights + k, sizeof by);
-                return (pair_sums(load_ints(cells + k), by) + 32768 * 257) >> 16;
+                return (pair_sums(load_ints(cells + k), load_raw<Ints>(weights + k)) + 32768 * 257) >> 16;
             };
             const RawBytes pixels = lowest_bytes(lanes_from(i), lanes_from(i + places),
                                                  lanes_from(i + 2 * places), lanes_from(i + 3 * places));
@@ -119,10 +117,8 @@ inline void weigh_fours(const std::int16_t* line, const std::int32_t* at, const 
         }
         for (int i = 0; i < taps_length; i += FOVEA_BYTES) {
             const auto lanes_from = [&](int k) {
-                Ints a;
-                Ints b;
-                std::memcpy(&a, first_weights + k, sizeof a);
-                std::memcpy(&b, last_weights + k, sizeof b);
+                const auto a = load_raw<Ints>(first_weights + k);
+                const auto b = load_raw<Ints>(last_weights + k);
                 const Ints sum = pair_sums(load_ints(first + k), a) + pair_sums(load_ints(last + k), b);
                 return held((sum + (1 << 16)) >> 17, all_ints(255));
             };

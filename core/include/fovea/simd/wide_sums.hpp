@@ -65,12 +65,8 @@ public:
     /// holds numbers of 16 bits, below 2^15.
     [[gnu::always_inline]] void add(const std::uint8_t* from, Pair weights) {
         const Ints by = all_ints(bits_as<std::int32_t>(weights));
-        Ints even;
-        Ints odd;
-        std::memcpy(&even, from, sizeof even);
-        std::memcpy(&odd, from + column_bytes, sizeof odd);
-        sums_[0] += pair_sums(even, by);
-        sums_[1] += pair_sums(odd, by);
+        sums_[0] += pair_sums(load_raw<Ints>(from), by);
+        sums_[1] += pair_sums(load_raw<Ints>(from + column_bytes), by);
     }
     WideInts operator[](int number) const { return sums_[number]; }
     /// The lower halves of both, in order.
@@ -113,9 +109,7 @@ public:
     static RawWords joined(const WideInts (&sums)[count]) {
         std::uint16_t numbers[count];
         for (int i = 0; i < count; ++i) numbers[i] = static_cast<std::uint16_t>(sums[i]);
-        RawWords words;
-        std::memcpy(&words, numbers, sizeof words);
-        return words;
+        return load_raw<RawWords>(numbers);
     }
 
 private:
