@@ -39,6 +39,7 @@ template <std::size_t FrameBytes, std::size_t ScratchBytes, std::size_t LineByte
 struct GaugeMemory {
     static constexpr std::int64_t frame_bytes = FrameBytes;
     static constexpr std::int64_t line_bytes = LineBytes;
+
     RecipeOf<Features> recipe;
     List<PartResult, Parts> parts;
     /// Of the gauge; until a frame is whole, of the packet that arrives: a line, or a recipe.
@@ -89,9 +90,7 @@ public:
     /// One turn of the loop. Never waits but for its own line.
     void turn() {
         ports_.watchdog.feed();
-        const Result<bool> edge = ports_.trigger.take_edge();
-        if (!edge) return fail("the trigger cannot be read");
-        if (*edge) trigger();
+        take_edge();
         std::uint8_t bytes[16];
         const Result<int> count = ports_.serial.read(bytes);
         if (count)
@@ -102,9 +101,17 @@ public:
     }
 
 private:
-    enum class State : std::uint8_t { idle, armed, receiving };
+    enum class State : std::uint8_t { idle, armed, receiving, judging };
 
     // ---- What arrives ----
+
+    /// A pin that cannot be read is told of once, and a packet still triggers.
+    void take_edge() {
+        const Result<bool> edge = ports_.trigger.take_edge();
+        if (!edge && !trigger_lost_) fail("the trigger cannot be read");
+        trigger_lost_ = !edge;
+        if (edge && *edge) trigger();
+    }
 
     void take(std::uint8_t byte) {
         const Result<bool> whole = reader_.add(byte);
@@ -216,6 +223,7 @@ private:
     }
 
     void judge_frame() {
+        state_ = State::judging;
         const ImageView<const Gray8> image(memory_.frame, size_, size_.width);
         memory_.parts.clear();
         const Status status = gauge(image, memory_.recipe, memory_.scratch, memory_.parts);
@@ -275,6 +283,7 @@ private:
     int next_line_ = 0;
     Size size_{};
     bool has_recipe_ = false;
+    bool trigger_lost_ = false;
     std::int64_t frame_ = 0;
     std::int64_t triggers_ = 0;
     std::int64_t heard_ = 0;

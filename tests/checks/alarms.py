@@ -622,6 +622,12 @@ def target_pins(folder):
                                  f"{PROJECT}/tests/target/pins.py microbit {name}"], words
 
 
+def target_watchdog(folder):
+    """watchdog.py must see a watchdog that sleeps, as that of a microbit does in the emulator."""
+    yield "asleep", ["sh", "-c", f"mkdir -p {folder} && cd {folder} && {MICROBIT} {PROJECT}/tests/target/watchdog.cpp -lgcc -o asleep && "
+                                 f"{PROJECT}/tests/target/watchdog.py microbit asleep"], "'start' was expected, '' came"
+
+
 DEPTH = """
 #include <cstdint>
 int fovea_sink;
@@ -660,7 +666,7 @@ def target_call_depth(folder):
 
 
 def target_firmware(folder):
-    """firmware.py must see a wrong value, an error that is not told, a pin that stays, and a watchdog that sleeps."""
+    """firmware.py must see a wrong value, an error that is not told, and a pin that stays."""
     fovea = PROJECT / "build/tool/apps/fovea"
     limits = "-DFOVEA_FRAME_BYTES=3072 -DFOVEA_SCRATCH_BYTES=7168 -DFOVEA_LINE_BYTES=384 -DFOVEA_FEATURES=6 -DFOVEA_PARTS=1"
     faults = [("nothing", "", "", None),
@@ -692,7 +698,7 @@ def target_new_board(folder):
     yield "a clock at no address", broken("c", "ports/bare_metal/rv32_virt/board.hpp", "0x0200BFF8", "0x02000000"), "run FAILED"
 
 
-target_alarms = [target_binary, target_chip, target_pins, target_call_depth, target_firmware, target_new_board]
+target_alarms = [target_binary, target_chip, target_pins, target_watchdog, target_call_depth, target_firmware, target_new_board]
 
 
 # ---- All of them --------------------------------------------------------------------------

@@ -26,7 +26,8 @@ EDGE = re.compile(r'^edge: \{ sourcename: "([^"]*)" targetname: "([^"]*)"')
 FRAME = re.compile(r"\\n(\d+) bytes \(([^)]*)\)")
 SYMBOL = re.compile(r"^([0-9a-f]+) <(.*)>:$")
 INSTRUCTION = re.compile(r"^ *[0-9a-f]+:\t(\S+)\s*(.*)$")
-TAKEN = re.compile(r"R_ARM_ABS32\s+(?:\.text\.)?(\S+)")
+# In a table or a literal, or as two instructions.
+TAKEN = re.compile(r"R_ARM_(?:ABS32|THM_MOVW_ABS_NC)\s+(?:\.text\.)?(\S+)")
 
 
 def run(*command):

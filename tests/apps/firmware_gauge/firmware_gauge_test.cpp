@@ -185,6 +185,50 @@ TEST_F(FirmwareGauge, TellsOfPinsThatDoNotObey) {
     trigger.broken = true;
     EXPECT_NE(said().find("\"error\":\"the trigger cannot be read\""), std::string::npos);
     EXPECT_TRUE(is(false, false));
+    // Once, and a packet still triggers.
+    EXPECT_EQ(said(), "");
+    send(apps::PacketKind::trigger);
+    EXPECT_EQ(said(), "{\"frame\":2,\"ready\":true}\n");
+}
+
+TEST_F(FirmwareGauge, TellsOfAPacketWithoutEndOnce) {
+    said();
+    for (const std::size_t bytes : {std::size_t{5}, std::size_t{1000}}) {
+        serial.arriving.push_back(0xC0);
+        serial.arriving.insert(serial.arriving.end(), bytes, 1);
+        clock.now += 1000;
+        const std::string at_once = said();
+        clock.now += 2500000;
+        EXPECT_EQ(at_once + said(), bytes == 5
+                                        ? "{\"error\":\"packet cut off\",\"verdict\":\"unmeasured\"}\n"
+                                        : "{\"error\":\"packet too long\",\"verdict\":\"unmeasured\"}\n");
+        for (int i = 0; i < 3; ++i) {
+            clock.now += 2500000;
+            EXPECT_EQ(said(), "");
+        }
+    }
+    // So is a trigger without a frame.
+    send_recipe();
+    send(apps::PacketKind::trigger);
+    said();
+    clock.now += 2500000;
+    EXPECT_EQ(said(), "{\"frame\":1,\"error\":\"no frame came\",\"verdict\":\"unmeasured\"}\n");
+    clock.now += 2500000;
+    EXPECT_EQ(said(), "");
+}
+
+TEST_F(FirmwareGauge, NamesALineOnlyWhereALineIsWrong) {
+    send_recipe();
+    said();
+    send(apps::PacketKind::trigger);
+    said();
+    send_frame({});
+    EXPECT_EQ(said(),
+              "{\"frame\":1,\"error\":\"the data do not determine an answer\",\"verdict\":\"unmeasured\"}\n");
+    send(apps::PacketKind::trigger);
+    send(apps::PacketKind::frame, {frame_size.width, frame_size.height});
+    send(apps::PacketKind::line, {1}, Bytes(static_cast<std::size_t>(frame_size.width), 9));
+    EXPECT_NE(said().find("\"error\":\"line missing\",\"line\":0,"), std::string::npos);
 }
 
 TEST_F(FirmwareGauge, ABrokenLineIsOutwaited) {

@@ -40,8 +40,8 @@ public:
 
     /// The last packet.
     constexpr Span<const std::uint8_t> content() const { return {room_.data(), content_}; }
-    /// True while a packet has begun and not ended.
-    constexpr bool in_packet() const { return size_ > 0 || skipping_; }
+    /// True while a packet has begun that may still end well or be told of; not while one is skipped.
+    constexpr bool in_packet() const { return size_ > 0 || escaped_ || wrong_; }
     /// Drops what has begun; until the next mark all is skipped.
     constexpr void drop();
 
@@ -109,7 +109,7 @@ constexpr Result<bool> PacketReader::end_packet() {
 constexpr Result<bool> PacketReader::add(std::uint8_t byte) {
     if (byte == detail::packet_mark) {
         // Between packets there may be any number of marks.
-        if (size_ > 0 || wrong_ || escaped_) return end_packet();
+        if (in_packet()) return end_packet();
         skipping_ = false;
         return false;
     }

@@ -53,7 +53,7 @@ inline constexpr std::ptrdiff_t compiled_head = 7;
 inline constexpr std::ptrdiff_t compiled_tail = 4;
 inline constexpr std::ptrdiff_t most_number_bytes = 10;
 inline constexpr int numbers_of_a_recipe = 21;
-inline constexpr int numbers_of_a_feature = 24;
+inline constexpr int numbers_of_a_feature = 23;
 
 /// Puts fields behind each other. Counts on where there is no room.
 class FieldWriter {
