@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Prints docs/instructions.md from the tables of tests/target/instructions and openmv.txt."""
+"""Prints docs/instructions.md from the tables of tests/target/instructions and openmv.txt, and docs/memory.md."""
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
+MEMORY = FOLDER.parents[1] / "docs/memory.md"
 PIXELS = 320 * 240
 LANES = {  # table: title of its column
     "cortex-m0": "M0", "cortex-m0-clang": "M0 Clang", "cortex-m3": "M3", "cortex-m4": "M4", "cortex-m7": "M7",
@@ -15,6 +16,18 @@ def read(lane):
     lines = (FOLDER / f"instructions/{lane}.txt").read_text().splitlines()
     rows = [line.split(maxsplit=1) for line in lines if not line.startswith("#")]
     return {name: int(count) / PIXELS for count, name in rows}
+
+
+def memory():
+    """Of every operator that the page of memory names: flash and stack on M0 and M4, and scratch, as it writes them."""
+    rooms, chips = MEMORY.read_text().split("## On chips")
+
+    def rows(text):
+        cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()]
+        return [row for row in cells if len(row) == 5 and row[1].isdigit()]
+
+    scratch = {name: row[2] for row in rows(rooms) for name in row[0].split(", ")}
+    return {row[0]: row[1:] + [scratch[row[0]]] for row in rows(chips) if row[0] in scratch}
 
 
 def number(value):
@@ -54,11 +67,19 @@ ratio is theirs over ours with GCC; above 1 we take fewer.
         met = sum(ratio >= wanted for ratio in ratios[lane])
         print(f"\n{LANES[lane]}: {met} of {len(ratios[lane])} by {wanted} times or more"
               f"{'; fewest ' if met < len(ratios[lane]) else '; least '}{min(ratios[lane]):.1f}.")
-    print("\n## All\n")
-    print("| | " + " | ".join(LANES.values()) + " |")
-    print("|---" * (len(LANES) + 1) + "|")
+    print("""
+## All
+
+Behind the counts the bytes that an operator takes: flash and the deepest stack on M0 and M4, each compiled by -Os in a
+program that has no other, and scratch for 320x240 (`docs/memory.md`, which also has other sizes).
+""")
+    needs = ("flash M0", "stack M0", "flash M4", "stack M4", "scratch")
+    print("| | " + " | ".join((*LANES.values(), *needs)) + " |")
+    print("|---" * (len(LANES) + len(needs) + 1) + "|")
+    bytes_of = memory()
     for name in tables["cortex-m0"]:
-        print(f"| {name} | " + " | ".join(number(tables[lane][name]) for lane in LANES) + " |")
+        counts = [number(tables[lane][name]) for lane in LANES]
+        print(f"| {name} | " + " | ".join(counts + bytes_of.get(name, [""] * len(needs))) + " |")
 
 
 if __name__ == "__main__":

@@ -59,7 +59,10 @@ void* memset(void* to, int value, std::size_t bytes) {
     for (; bytes > 0 && !aligned(out, out); --bytes) *out++ = byte;
     auto* words = reinterpret_cast<Word*>(out);
     const Word four = byte * 0x01010101u;
-    for (; bytes >= 16; bytes -= 16, words += 4) words[0] = words[1] = words[2] = words[3] = four;
+    for (; bytes >= 32; bytes -= 32, words += 8) {
+        words[0] = words[1] = words[2] = words[3] = four;
+        words[4] = words[5] = words[6] = words[7] = four;
+    }
     for (; bytes >= 4; bytes -= 4) *words++ = four;
     out = reinterpret_cast<unsigned char*>(words);
     while (bytes-- > 0) *out++ = byte;

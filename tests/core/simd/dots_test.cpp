@@ -50,5 +50,16 @@ TEST(Dots, TotalsAreThoseOfEachVector) {
     for (int k = 0; k < 4; ++k) EXPECT_EQ(totals[k], expected[k]);
 }
 
+TEST(Dots, BlendsTheHalvesOfAWord) {
+    Random random(653);
+    for (std::uint32_t weight = 0; weight <= 256; ++weight)
+        for (int round = 0; round < 100; ++round) {
+            const std::uint32_t halves = round == 0 ? 0xffffffffu : round == 1 ? 0x80007fffu : random.next();
+            const std::uint64_t sum =
+                std::uint64_t{halves & 0xffff} * (256 - weight) + std::uint64_t{halves >> 16} * weight;
+            ASSERT_EQ(simd::blend_halves(halves, (256 - weight) | weight << 16), (sum + (1 << 15)) >> 16);
+        }
+}
+
 }  // namespace
 }  // namespace fovea::test

@@ -87,6 +87,29 @@ private:
     std::vector<std::vector<int>> tables_;
 };
 
+TEST(Clahe, MakesTheSameTableWithNumbersOf64Bits) {
+    Random random(142);
+    for (const int clip : {min_clahe_clip, 300, max_clahe_clip}) {
+        std::vector<std::uint32_t> narrow(256);
+        std::uint32_t area = 0;
+        for (std::uint32_t& count : narrow) area += count = random.below(random.below(20) == 0 ? 30000 : 300);
+        std::vector<std::uint32_t> wide = narrow;
+        std::vector<Gray8> table(256);
+        std::vector<Gray8> same(256);
+        detail::clahe_table<std::uint32_t>(narrow.data(), area, clip, table.data());
+        detail::clahe_table<std::uint64_t>(wide.data(), area, clip, same.data());
+        EXPECT_EQ(table, same);
+        EXPECT_EQ(table[255], 255);
+        EXPECT_EQ(narrow, std::vector<std::uint32_t>(256));
+    }
+    // More pixels than 32 bits hold 510 times.
+    std::vector<std::uint32_t> counts(256, 1u << 20);
+    std::vector<Gray8> table(256);
+    detail::clahe_table(counts.data(), 256u << 20, max_clahe_clip, table.data());
+    for (int level = 0; level < 256; ++level)
+        EXPECT_EQ(table[static_cast<std::size_t>(level)], (510 * (level + 1) + 256) / 512);
+}
+
 TEST(Clahe, EqualsTheReferenceOnEverySize) {
     Random random(141);
     for (const Size size : test_sizes())

@@ -67,6 +67,41 @@ TEST(Histogram, BeginsAnewUnlessThereIsNoImage) {
     EXPECT_EQ(histogram.total(), 0u);
 }
 
+TEST(Histogram, JoinsItsTablesToOneThatMayBeChanged) {
+    const std::vector<Gray8> row{3, 3, 3, 3, 3, 9, 255, 0, 3, 3, 3, 3};
+    Histogram histogram;
+    histogram.add_row(row.data(), static_cast<int>(row.size()));
+    std::uint32_t* counts = histogram.counts();
+    EXPECT_EQ(counts[0], 1u);
+    EXPECT_EQ(counts[3], 9u);
+    EXPECT_EQ(counts[9], 1u);
+    EXPECT_EQ(counts[255], 1u);
+    EXPECT_EQ(histogram.total(), 12u);
+    EXPECT_EQ(histogram[3], 9u);
+    for (int level = 0; level < Histogram::levels; ++level) counts[level] = 0;
+    EXPECT_EQ(histogram.total(), 0u);
+    histogram.add_row(row.data(), 5);
+    EXPECT_EQ(histogram[3], 5u);
+}
+
+TEST(Histogram, IsTheSameWithOneTableAndWithFour) {
+    Random random(231);
+    HistogramOf<1> one;
+    HistogramOf<4> four;
+    for (std::size_t width = 0; width <= 70; ++width) {
+        std::vector<Gray8> row(width);
+        std::vector<Gray8> mask(width);
+        for (Gray8& pixel : row) pixel = static_cast<Gray8>(random.below(4) == 0 ? random.next() >> 9 : 7);
+        for (Gray8& pixel : mask) pixel = static_cast<Gray8>(random.below(3));
+        one.add_row(row.data(), static_cast<int>(width));
+        four.add_row(row.data(), static_cast<int>(width));
+        one.add_row(row.data(), mask.data(), static_cast<int>(width));
+        four.add_row(row.data(), mask.data(), static_cast<int>(width));
+    }
+    for (int level = 0; level < Histogram::levels; ++level) EXPECT_EQ(one[level], four[level]);
+    EXPECT_EQ(one.total(), four.total());
+}
+
 TEST(HistogramOf, CountsOnlyWhereTheMaskIsSet) {
     Random random(54);
     for (const Size size : test_sizes()) {

@@ -99,6 +99,20 @@ TEST(ResizeBilinear, EqualsTheReferenceOnEverySize) {
         }
 }
 
+TEST(ResizeBilinear, ToHalfOfBothSidesIsTheMeanOfFour) {
+    Random random(83);
+    for (const Size out : {Size{1, 1}, Size{7, 3}, Size{16, 2}, Size{33, 5}, Size{100, 1}}) {
+        GuardedImage<Gray8> src({2 * out.width, 2 * out.height}), dst(out);
+        src.fill(random);
+        bilinear(src, dst);
+        for (int y = 0; y < out.height; ++y)
+            for (int x = 0; x < out.width; ++x)
+                ASSERT_EQ(dst(x, y), (src(2 * x, 2 * y) + src(2 * x + 1, 2 * y) + src(2 * x, 2 * y + 1) +
+                                      src(2 * x + 1, 2 * y + 1) + 2) /
+                                         4);
+    }
+}
+
 double cubic_weight(double distance) {
     const double d = std::abs(distance);
     if (d < 1) return 1.5 * d * d * d - 2.5 * d * d + 1;

@@ -36,12 +36,15 @@ namespace kernels {
 /// dst[x] = op(src[x]) for one row; dst may be src.
 template <class Operation>
 void point_row(const Gray8* src, int width, Operation op, Gray8* dst) {
-    simd::for_each_vector(width, [&](int x, int count) {
-        if (count == simd::lanes)
-            op(simd::Bytes::load(src + x)).store(dst + x);
-        else
-            op(simd::Bytes::load(src + x, count)).store(dst + x, count);
-    });
+    simd::for_each_vector(
+        width,
+        [&](int x, int count) {
+            if (count == simd::lanes)
+                op(simd::Bytes::load(src + x)).store(dst + x);
+            else
+                op(simd::Bytes::load(src + x, count)).store(dst + x, count);
+        },
+        simd::make_pairs(src, width, op, dst));
 }
 
 /// dst[x] = op(a[x], b[x]) for one row; dst may be a or b.

@@ -15,6 +15,7 @@
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/prefix.hpp>
+#include <fovea/simd/window_means.hpp>
 
 namespace fovea {
 
@@ -117,16 +118,6 @@ void replicate_sums(int width, int reach, Sum* line) {
 inline namespace FOVEA_ISA {
 namespace kernels {
 
-/// 255 where (pixel + offset) area is at least the sum between two prefix sums side apart, changed by flip.
-inline void compare_with_means(const Gray8* src, const std::uint32_t* sums, int width, int side, int offset,
-                               Gray8 flip, Gray8* dst) {
-    const std::int32_t area = side * side;
-    for (int x = 0; x < width; ++x) {
-        const auto sum = static_cast<std::int32_t>(sums[x + side] - sums[x]);
-        dst[x] = static_cast<Gray8>(((src[x] + offset) * area >= sum ? 255 : 0) ^ flip);
-    }
-}
-
 inline Status adaptive_frame(ImageView<const Gray8> src, int side, int offset, Gray8 flip,
                              Span<std::uint8_t> scratch, ImageView<Gray8> dst) {
     if (const Status s = detail::check_adaptive(src, side, offset >= -255 && offset <= 255, dst);
@@ -145,14 +136,13 @@ inline Status adaptive_frame(ImageView<const Gray8> src, int side, int offset, G
             for (int x = 0; x < width; ++x) columns[x] = static_cast<std::uint16_t>(columns[x] + row[x]);
         },
         [&](const Gray8* entering, const Gray8* leaving) {
-            for (int x = 0; x < width; ++x)
-                columns[x] = static_cast<std::uint16_t>(columns[x] + entering[x] - leaving[x]);
+            simd::slide_columns(entering, leaving, width, columns);
         },
         [&](int y) {
             detail::replicate_sums(width, reach, line);
             prefix[0] = 0;
             simd::prefix_row(line, width + side - 1, prefix + 1);
-            compare_with_means(src.row(y), prefix, width, side, offset, flip, dst.row(y));
+            simd::compare_with_means(src.row(y), prefix, width, side, offset, flip, dst.row(y));
         });
     return Status::ok;
 }
@@ -190,7 +180,7 @@ public:
         detail::replicate_sums(width, reach, line_);
         prefix_[0] = 0;
         simd::prefix_row(line_, width + side_ - 1, prefix_ + 1);
-        compare_with_means(window[reach], prefix_, width, side_, offset_, flip_, dst);
+        simd::compare_with_means(window[reach], prefix_, width, side_, offset_, flip_, dst);
     }
 
 private:

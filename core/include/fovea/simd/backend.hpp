@@ -17,6 +17,8 @@
 #include <immintrin.h>
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
 #include <emmintrin.h>
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -93,6 +95,8 @@ using RawQuads [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
     return bits_as<RawWords>(_mm256_mulhi_epu16(bits_as<__m256i>(a), bits_as<__m256i>(all_words(k))));
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
     return bits_as<RawWords>(_mm_mulhi_epu16(bits_as<__m128i>(a), bits_as<__m128i>(all_words(k))));
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    return bits_as<RawWords>(vmulhq_u16(bits_as<uint16x8_t>(a), vdupq_n_u16(k)));
 #else
     const RawQuads pairs = bits_as<RawQuads>(a);
     return bits_as<RawWords>((pairs & 0xffffu) * k >> 16 | ((pairs >> 16) * k & 0xffff0000u));
@@ -104,6 +108,8 @@ using RawQuads [[gnu::vector_size(FOVEA_BYTES)]] = std::uint32_t;
     return bits_as<RawWords>(_mm256_mulhi_epu16(bits_as<__m256i>(a), bits_as<__m256i>(b)));
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
     return bits_as<RawWords>(_mm_mulhi_epu16(bits_as<__m128i>(a), bits_as<__m128i>(b)));
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    return bits_as<RawWords>(vmulhq_u16(bits_as<uint16x8_t>(a), bits_as<uint16x8_t>(b)));
 #else
     const RawQuads x = bits_as<RawQuads>(a);
     const RawQuads y = bits_as<RawQuads>(b);

@@ -15,6 +15,8 @@
 #include <immintrin.h>
 #elif FOVEA_BYTES >= 16 && defined(__SSE2__)
 #include <emmintrin.h>
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -63,6 +65,20 @@ template <class Make>
     const __m256i bit = _mm256_set1_epi64x(static_cast<long long>(0x8040201008040201));
     const __m256i own = _mm256_and_si256(_mm256_shuffle_epi8(word, which), bit);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_cmpeq_epi8(own, bit));
+}
+
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+
+[[gnu::always_inline]] inline std::uint32_t bits_at_least(const std::uint8_t* from, std::uint8_t level) {
+    const mve_pred16_t low = vcmpcsq_n_u8(vldrbq_u8(from), level);
+    const mve_pred16_t high = vcmpcsq_n_u8(vldrbq_u8(from + 16), level);
+    return std::uint32_t{low} | std::uint32_t{high} << 16;
+}
+[[gnu::always_inline]] inline void spread_bits(std::uint32_t bits, std::uint8_t* to) {
+    const uint8x16_t white = vdupq_n_u8(255);
+    const uint8x16_t black = vdupq_n_u8(0);
+    vstrbq_u8(to, vpselq_u8(white, black, static_cast<mve_pred16_t>(bits & 0xffff)));
+    vstrbq_u8(to + 16, vpselq_u8(white, black, static_cast<mve_pred16_t>(bits >> 16)));
 }
 
 #else

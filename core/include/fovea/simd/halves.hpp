@@ -16,6 +16,8 @@
 #include <immintrin.h>
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
 #include <emmintrin.h>
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -36,6 +38,8 @@ inline constexpr int half_lanes = lanes / 2;
     std::memcpy(&half, from, sizeof half);
     return bits_as<RawWords>(
         _mm_unpacklo_epi8(_mm_cvtsi64_si128(static_cast<long long>(half)), _mm_setzero_si128()));
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    return bits_as<RawWords>(vldrbq_u16(from));
 #else
     std::uint16_t values[half_lanes];
     for (int i = 0; i < half_lanes; ++i) values[i] = from[i];
@@ -50,6 +54,12 @@ inline constexpr int half_lanes = lanes / 2;
     return {bits_as<RawBytes>(_mm256_permute4x64_epi64(both, 0xd8))};
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
     return {bits_as<RawBytes>(_mm_packus_epi16(bits_as<__m128i>(first), bits_as<__m128i>(second)))};
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    // Narrow numbers lie in order in memory alone.
+    std::uint8_t pixels[lanes];
+    vstrbq_u16(pixels, bits_as<uint16x8_t>(first));
+    vstrbq_u16(pixels + half_lanes, bits_as<uint16x8_t>(second));
+    return Bytes::load(pixels);
 #else
     std::uint16_t values[lanes];
     std::memcpy(values, &first, sizeof first);

@@ -25,6 +25,9 @@
 #elif FOVEA_BYTES >= 16 && defined(__ARM_NEON)
 #include <arm_neon.h>
 #define FOVEA_INTERLEAVE_NEON
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
+#define FOVEA_INTERLEAVE_MVE
 #endif
 
 namespace fovea {
@@ -229,6 +232,29 @@ using InterleavePiece = uint8x16_t;
     uint8x16x3_t triples;
     for (int i = 0; i < 3; ++i) triples.val[i] = part[i];
     vst3q_u8(to, triples);
+}
+
+#elif defined(FOVEA_INTERLEAVE_MVE)
+
+using InterleavePiece = uint8x16_t;
+
+/// Where the first bytes of 16 pairs or triples lie.
+template <int Bytes>
+[[gnu::always_inline]] inline uint8x16_t each() {
+    return vmulq_n_u8(vidupq_n_u8(0, 1), Bytes);
+}
+
+[[gnu::always_inline]] inline void deal_pairs(const std::uint8_t* from, InterleavePiece (&part)[2]) {
+    const uint8x16_t at = each<2>();
+    for (int i = 0; i < 2; ++i) part[i] = vldrbq_gather_offset_u8(from + i, at);
+}
+[[gnu::always_inline]] inline void deal_triples(const std::uint8_t* from, InterleavePiece (&part)[3]) {
+    const uint8x16_t at = each<3>();
+    for (int i = 0; i < 3; ++i) part[i] = vldrbq_gather_offset_u8(from + i, at);
+}
+[[gnu::always_inline]] inline void join_triples(const InterleavePiece (&part)[3], std::uint8_t* to) {
+    const uint8x16_t at = each<3>();
+    for (int i = 0; i < 3; ++i) vstrbq_scatter_offset_u8(to + i, at, part[i]);
 }
 
 #else

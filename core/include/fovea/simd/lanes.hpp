@@ -94,9 +94,16 @@ struct Words {
     }
     /// lanes numbers of 16 bits, or the first count of them and zeros behind.
     [[gnu::always_inline]] static Words load(const std::uint16_t* from) {
+#if FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+        // By places: the instruction for pairs wants an address that is a multiple of 4.
+        const uint16x8_t each_second = vidupq_n_u16(0, 2);
+        return {bits_as<RawWords>(vldrhq_gather_shifted_offset_u16(from, each_second)),
+                bits_as<RawWords>(vldrhq_gather_shifted_offset_u16(from + 1, each_second))};
+#else
         const auto first = load_raw<RawWords>(from);
         const auto second = load_raw<RawWords>(from + lanes / 2);
         return {even_words(first, second), odd_words(first, second)};
+#endif
     }
     [[gnu::always_inline]] static Words load(const std::uint16_t* from, int count) {
         std::uint16_t row[lanes] = {};
@@ -104,10 +111,16 @@ struct Words {
         return load(row);
     }
     [[gnu::always_inline]] void store(std::uint16_t* to) const {
+#if FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+        const uint16x8_t each_second = vidupq_n_u16(0, 2);
+        vstrhq_scatter_shifted_offset_u16(to, each_second, bits_as<uint16x8_t>(even));
+        vstrhq_scatter_shifted_offset_u16(to + 1, each_second, bits_as<uint16x8_t>(odd));
+#else
         const RawWords first = interleave_first(even, odd);
         const RawWords second = interleave_second(even, odd);
         std::memcpy(to, &first, sizeof first);
         std::memcpy(to + lanes / 2, &second, sizeof second);
+#endif
     }
     [[gnu::always_inline]] void store(std::uint16_t* to, int count) const {
         std::uint16_t row[lanes];

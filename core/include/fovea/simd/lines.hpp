@@ -12,6 +12,7 @@
 #include <fovea/simd/backend.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/simd/unroll.hpp>
 
 namespace fovea {
 
@@ -103,12 +104,35 @@ private:
     std::uint8_t* odd_ = nullptr;
 };
 
-/// Calls visit(x, count) for every vector of a row: count is lanes but for the last, partial one.
+/// Calls visit(x, count) for every vector of a row from column x on: count is lanes but for the last, partial
+/// one.
 template <class Visit>
-[[gnu::always_inline]] inline void for_each_vector(int width, Visit visit) {
-    int x = 0;
+[[gnu::always_inline]] inline void for_each_vector(int width, Visit visit, int x = 0) {
     for (; x + lanes <= width; x += lanes) visit(x, lanes);
     if (x < width) visit(x, width - x);
+}
+
+/// Makes words of a row from those of another where one instruction takes two of them, which lie at multiples
+/// of 4, and returns the columns done: up to 63 are left, on other processors all.
+template <class Operation>
+[[gnu::always_inline]] inline int make_pairs([[maybe_unused]] const std::uint8_t* src,
+                                             [[maybe_unused]] int width, [[maybe_unused]] Operation op,
+                                             [[maybe_unused]] std::uint8_t* dst) {
+    int x = 0;
+#if FOVEA_BYTES == 4 && defined(__thumb2__)
+    using Word [[gnu::may_alias]] = std::uint32_t;
+    if (((reinterpret_cast<std::uintptr_t>(src) | reinterpret_cast<std::uintptr_t>(dst)) & 3) != 0) return 0;
+    for (; x + 64 <= width; x += 64)
+        unroll<8>([&](auto i) {
+            const Word* from = reinterpret_cast<const Word*>(src + x) + 2 * i;
+            Word* to = reinterpret_cast<Word*>(dst + x) + 2 * i;
+            const Bytes first{from[0]};
+            const Bytes second{from[1]};
+            to[0] = op(first).raw;
+            to[1] = op(second).raw;
+        });
+#endif
+    return x;
 }
 
 }  // namespace simd

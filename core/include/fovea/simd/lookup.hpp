@@ -14,6 +14,8 @@
 #include <immintrin.h>
 #elif FOVEA_BYTES >= 16 && defined(__ARM_NEON) && defined(__aarch64__)
 #include <arm_neon.h>
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -156,6 +158,16 @@ inline void Lookup::row(const std::uint8_t* src, int count, std::uint8_t* dst) c
         found = vqtbx4q_u8(found, quarters[3], vsubq_u8(x, vdupq_n_u8(192)));
         vst1q_u8(dst + i, found);
     }
+    rest(src + i, count - i, dst + i);
+}
+
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+
+inline Lookup::Lookup(const std::uint8_t* table) : table_(table) {}
+
+inline void Lookup::row(const std::uint8_t* src, int count, std::uint8_t* dst) const {
+    int i = 0;
+    for (; i + 16 <= count; i += 16) vstrbq_u8(dst + i, vldrbq_gather_offset_u8(table_, vldrbq_u8(src + i)));
     rest(src + i, count - i, dst + i);
 }
 

@@ -15,6 +15,8 @@
 #include <emmintrin.h>
 #elif FOVEA_BYTES >= 16 && defined(__ARM_NEON)
 #include <arm_neon.h>
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -90,6 +92,44 @@ struct PrefixOfBytes {
 
 #endif
 
+#if FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+
+[[gnu::always_inline]] inline std::uint32_t sum_of_row(const std::uint8_t* row, int count) {
+    std::uint32_t sum = 0;
+    int x = 0;
+    for (; x + 16 <= count; x += 16) sum = vaddvaq_u8(sum, vldrbq_u8(row + x));
+    for (; x < count; ++x) sum += row[x];
+    return sum;
+}
+[[gnu::always_inline]] inline std::uint32_t sum_of_row(const std::uint16_t* row, int count) {
+    std::uint32_t sum = 0;
+    int x = 0;
+    for (; x + 8 <= count; x += 8) sum = vaddvaq_u16(sum, vldrhq_u16(row + x));
+    for (; x < count; ++x) sum += row[x];
+    return sum;
+}
+/// Prefix sums of the quarters of a row side by side: load(at) has the numbers there, store(at, sums) takes
+/// their sums. A quarter begins with what total(i) says of the i before.
+template <class Total, class Load, class Store>
+[[gnu::always_inline]] inline void prefix_of_quarters(int quarter, Total total, Load load, Store store) {
+    uint32x4_t at = vmulq_n_u32(vidupq_n_u32(0, 1), static_cast<std::uint32_t>(quarter));
+    uint32x4_t sums = vdupq_n_u32(0);
+    std::uint32_t before = 0;
+    before += total(0);
+    sums = vsetq_lane_u32(before, sums, 1);
+    before += total(1);
+    sums = vsetq_lane_u32(before, sums, 2);
+    before += total(2);
+    sums = vsetq_lane_u32(before, sums, 3);
+    for (int x = 0; x < quarter; ++x) {
+        sums = vaddq_u32(sums, load(at));
+        store(at, sums);
+        at = vaddq_n_u32(at, 1);
+    }
+}
+
+#endif
+
 #if FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 
 /// Four sums of integral_row(), after sum. One instruction adds a byte out of a word.
@@ -155,6 +195,17 @@ inline void integral_row(const std::uint8_t* src, int count, const std::uint32_t
         vst1q_u32(dst + x + 4, vaddq_u32(vld1q_u32(above + x + 4), high));
     }
     sum = vgetq_lane_u32(carry, 0);
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+    const int quarter = count / 4;
+    x = 4 * quarter;
+    const auto total = [=](int i) { return sum_of_row(src + i * quarter, quarter); };
+    prefix_of_quarters(
+        quarter, total, [=](uint32x4_t at) { return vldrbq_gather_offset_u32(src, at); },
+        [=](uint32x4_t at, uint32x4_t sums) {
+            const uint32x4_t over = vldrwq_gather_shifted_offset_u32(above, at);
+            vstrwq_scatter_shifted_offset_u32(dst, at, vaddq_u32(over, sums));
+        });
+    if (quarter > 0) sum = dst[x - 1] - above[x - 1];
 #elif FOVEA_BYTES == 4 && defined(__ARM_FEATURE_SIMD32) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     for (; x + 8 <= count; x += 8) {
         sum = add_four_above(src + x, sum, above + x, dst + x);
@@ -196,6 +247,14 @@ inline void prefix_row(const std::uint16_t* src, int count, std::uint32_t* dst) 
         vst1q_u32(dst + x + 4, high);
     }
     sum = vgetq_lane_u32(carry, 0);
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+    const int quarter = count / 4;
+    x = 4 * quarter;
+    const auto total = [=](int i) { return sum_of_row(src + i * quarter, quarter); };
+    prefix_of_quarters(
+        quarter, total, [=](uint32x4_t at) { return vldrhq_gather_shifted_offset_u32(src, at); },
+        [=](uint32x4_t at, uint32x4_t sums) { vstrwq_scatter_shifted_offset_u32(dst, at, sums); });
+    if (quarter > 0) sum = dst[x - 1];
 #endif
     for (; x < count; ++x) {
         sum += src[x];

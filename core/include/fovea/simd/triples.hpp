@@ -13,6 +13,8 @@
 #include <emmintrin.h>
 #elif FOVEA_BYTES >= 16 && defined(__ARM_NEON)
 #include <arm_neon.h>
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -37,6 +39,8 @@ struct TripleWeights {
 inline constexpr int triples_a_step = 32;
 #elif FOVEA_BYTES >= 16 && (defined(__SSE2__) || defined(__ARM_NEON))
 inline constexpr int triples_a_step = 16;
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+inline constexpr int triples_a_step = 4;
 #else
 inline constexpr int triples_a_step = 1;
 #endif
@@ -131,6 +135,17 @@ inline void weigh_step(const std::uint8_t* src, TripleWeights weights, std::uint
         vcombine_u8(
             eight(vget_low_u8(triples.val[0]), vget_low_u8(triples.val[1]), vget_low_u8(triples.val[2])),
             eight(vget_high_u8(triples.val[0]), vget_high_u8(triples.val[1]), vget_high_u8(triples.val[2]))));
+}
+
+#elif FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
+
+inline void weigh_step(const std::uint8_t* src, TripleWeights weights, std::uint8_t* dst) {
+    const uint32x4_t at = vmulq_n_u32(vidupq_n_u32(0, 1), 3);
+    uint32x4_t sum =
+        vmulq_n_u32(vldrbq_gather_offset_u32(src, at), static_cast<std::uint32_t>(weights.first));
+    sum = vmlaq_n_u32(sum, vldrbq_gather_offset_u32(src + 1, at), static_cast<std::uint32_t>(weights.second));
+    sum = vmlaq_n_u32(sum, vldrbq_gather_offset_u32(src + 2, at), static_cast<std::uint32_t>(weights.third));
+    vstrbq_u32(dst, vrshrq_n_u32(sum, 15));
 }
 
 #else

@@ -13,6 +13,8 @@
 #include <immintrin.h>
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
 #include <emmintrin.h>
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -51,6 +53,18 @@ namespace simd {
     const __m128i one = _mm_set1_epi16(1);
     return bits_as<RawWords>(_mm_packs_epi32(means(_mm_unpacklo_epi16(x, y), _mm_unpacklo_epi16(z, one)),
                                              means(_mm_unpackhi_epi16(x, y), _mm_unpackhi_epi16(z, one))));
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    const auto x = bits_as<uint16x8_t>(a);
+    const auto y = bits_as<uint16x8_t>(b);
+    const auto z = bits_as<uint16x8_t>(c);
+    const uint16x8_t of_a = vdupq_n_u16(static_cast<std::uint16_t>(weights.first));
+    const uint16x8_t of_b = vdupq_n_u16(static_cast<std::uint16_t>(weights.second));
+    const uint16x8_t of_c = vdupq_n_u16(static_cast<std::uint16_t>(weights.third));
+    const uint32x4_t low =
+        vaddq_u32(vaddq_u32(vmullbq_int_u16(x, of_a), vmullbq_int_u16(y, of_b)), vmullbq_int_u16(z, of_c));
+    const uint32x4_t high =
+        vaddq_u32(vaddq_u32(vmulltq_int_u16(x, of_a), vmulltq_int_u16(y, of_b)), vmulltq_int_u16(z, of_c));
+    return bits_as<RawWords>(vrshrntq_n_u32(vrshrnbq_n_u32(vdupq_n_u16(0), low, 15), high, 15));
 #else
     const auto x = bits_as<RawQuads>(a);
     const auto y = bits_as<RawQuads>(b);

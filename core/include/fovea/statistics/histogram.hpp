@@ -12,6 +12,7 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/simd/count_bytes.hpp>
 
 namespace fovea {
 
@@ -21,9 +22,12 @@ namespace fovea {
 /// a stream; merge() joins those of strips.
 ///
 /// Units   counts of pixels; at most 2^32 - 1 in all, so every image up to 65535 x 65535 fits
-/// Memory  1 KiB on 32-bit chips, 4 KiB elsewhere
+/// Memory  1 KiB a table
 /// Source  book sec. 2.5.1
-class Histogram {
+template <int Tables>
+class HistogramOf {
+    static_assert(Tables == 1 || Tables == 4, "one table, or four that take turns");
+
 public:
     using Input = Gray8;
     static constexpr int levels = 256;
@@ -36,38 +40,26 @@ public:
     }
     constexpr void add_row(const Gray8* row, int width, int) { add_row(row, width); }
     /// Adds the counts of another one.
-    constexpr void merge(const Histogram& other) {
+    constexpr void merge(const HistogramOf& other) {
         for (int level = 0; level < levels; ++level) counts_[0][level] += other[level];
     }
     /// Adds the pixels of a row.
     constexpr void add_row(const Gray8* row, int width) {
         int x = 0;
-        for (; x + 4 <= width; x += 4) {
-            // All four are read before one is written: a count need not wait for a store before it. One table
-            // takes them one after the other.
-            std::uint32_t* const first = &counts_[0][row[x]];
-            std::uint32_t* const second = &counts_[1 % tables][row[x + 1]];
-            std::uint32_t* const third = &counts_[2 % tables][row[x + 2]];
-            std::uint32_t* const fourth = &counts_[3 % tables][row[x + 3]];
-            if constexpr (tables == 4) {
-                const std::uint32_t counts[] = {*first + 1, *second + 1, *third + 1, *fourth + 1};
-                *first = counts[0];
-                *second = counts[1];
-                *third = counts[2];
-                *fourth = counts[3];
-            } else {
-                ++*first;
-                ++*second;
-                ++*third;
-                ++*fourth;
-            }
+#if defined(__ARM_FEATURE_MVE)
+        if constexpr (Tables == 4)
+            if (!__builtin_is_constant_evaluated()) x = simd::count_bytes(row, width, counts_);
+#endif
+        for (; x + 8 <= width; x += 8) {
+            add_four(row + x);
+            add_four(row + x + 4);
         }
         for (; x < width; ++x) ++counts_[0][row[x]];
     }
     /// Adds the pixels of a row whose mask is not 0.
     constexpr void add_row(const Gray8* row, const Gray8* mask, int width) {
         // A mask is as often set as not: added, so that no branch is guessed wrong.
-        for (int x = 0; x < width; ++x) counts_[x % tables][row[x]] += mask[x] != 0 ? 1 : 0;
+        for (int x = 0; x < width; ++x) counts_[x % Tables][row[x]] += mask[x] != 0 ? 1u : 0u;
     }
     constexpr int size() const { return levels; }
     constexpr std::uint32_t operator[](int level) const {
@@ -75,6 +67,17 @@ public:
         std::uint32_t sum = 0;
         for (const auto& table : counts_) sum += table[level];
         return sum;
+    }
+    /// The 256 counts, for who reads or changes them more than once: the tables are joined to one.
+    constexpr std::uint32_t* counts() {
+        if constexpr (Tables == 4)
+            for (int level = 0; level < levels; ++level) {
+                counts_[0][level] += counts_[1][level] + counts_[2][level] + counts_[3][level];
+                counts_[1][level] = 0;
+                counts_[2][level] = 0;
+                counts_[3][level] = 0;
+            }
+        return counts_[0];
     }
     constexpr std::uint32_t total() const {
         std::uint32_t sum = 0;
@@ -87,11 +90,33 @@ public:
     }
 
 private:
-    // On processors with a long pipeline four tables take turns, so that a pixel does not wait until its like
-    // before it is counted. On chips 1 KiB is enough.
-    static constexpr int tables = sizeof(void*) >= 8 ? 4 : 1;
-    std::uint32_t counts_[tables][levels]{};
+    constexpr void add_four(const Gray8* pixels) {
+        // All four are read before one is written: a count need not wait for a store before it. One table
+        // takes them one after the other.
+        std::uint32_t* const first = &counts_[0][pixels[0]];
+        std::uint32_t* const second = &counts_[1 % Tables][pixels[1]];
+        std::uint32_t* const third = &counts_[2 % Tables][pixels[2]];
+        std::uint32_t* const fourth = &counts_[3 % Tables][pixels[3]];
+        if constexpr (Tables == 4) {
+            const std::uint32_t counts[] = {*first + 1, *second + 1, *third + 1, *fourth + 1};
+            *first = counts[0];
+            *second = counts[1];
+            *third = counts[2];
+            *fourth = counts[3];
+        } else {
+            ++*first;
+            ++*second;
+            ++*third;
+            ++*fourth;
+        }
+    }
+
+    std::uint32_t counts_[static_cast<std::size_t>(Tables)][levels]{};
 };
+
+/// On processors with a long pipeline four tables take turns, so that a pixel does not wait until its like
+/// before it is counted; Helium fills them side by side. On other chips one is enough.
+using Histogram = HistogramOf<sizeof(void*) >= 8 || simd::counts_four_bytes ? 4 : 1>;
 
 /// The histogram of a whole image.
 ///

@@ -15,6 +15,7 @@
 #include <fovea/simd/halves.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/warp/halve_row.hpp>
 #include <fovea/warp/resize.hpp>
 
 namespace fovea {
@@ -50,23 +51,6 @@ constexpr std::int64_t resize_area_scratch(Size src, Size /*dst*/) {
 
 inline namespace FOVEA_ISA {
 namespace kernels {
-
-/// Half of width pixels, each the mean of two by two.
-inline void halve_row(const Gray8* upper, const Gray8* lower, int width, Gray8* dst) {
-    using simd::plus;
-    const auto quarter = [&](int x) {
-        const simd::Words a(simd::Bytes::load(upper + 2 * x));
-        const simd::Words b(simd::Bytes::load(lower + 2 * x));
-        const simd::RawWords sum = plus(plus(a.even, a.odd), plus(b.even, b.odd));
-        return simd::shift_right(plus(sum, simd::all_words(2)), 2);
-    };
-    int x = 0;
-    for (; x + simd::lanes <= width; x += simd::lanes)
-        simd::narrowed(quarter(x), quarter(x + simd::half_lanes)).store(dst + x);
-    for (; x < width; ++x)
-        dst[x] =
-            static_cast<Gray8>((upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1] + 2) >> 2);
-}
 
 /// Means over whole pixels, columns by rows each.
 inline void average_row(const std::uint32_t* sums, int columns, int rows, int width, Gray8* dst) {
