@@ -16,17 +16,12 @@
 #include <fovea/number/fixed.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/bilateral_sums.hpp>
-#include <fovea/simd/halves.hpp>
+#include <fovea/simd/bilateral_tables.hpp>
 #include <fovea/simd/isa.hpp>
-#include <fovea/simd/lanes.hpp>
-#include <fovea/simd/lines.hpp>
 
 namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
-
-/// The largest radius of bilateral().
-inline constexpr int max_bilateral_radius = 7;
 
 /// How far bilateral() looks.
 struct BilateralOptions {
@@ -53,7 +48,8 @@ constexpr std::int64_t bilateral_scratch(Size size, const BilateralOptions& opti
 /// Border    as border says
 /// Overlap   none: dst must not share pixels with src
 /// Scratch   bilateral_scratch(src.size(), options) bytes, undefined afterwards: 2 radius + 1 rows of
-///           16 bits
+///           16 bits. Without vectors and with Helium rows of 8 bits, and for each distance on the disc, of
+///           which radius 1 has 1, 2 has 3 and 7 has 23, a table of 1022 bytes, with Helium of 512
 /// Cost      grows with the pixels of the disc: 4, 12, 28, 48 ... 148 weights a pixel
 /// Errors    empty_image, size_mismatch, bad_argument for options out of their range, scratch_too_small
 /// Source    Tomasi and Manduchi, "Bilateral filtering for gray and color images", ICCV 1998
@@ -77,29 +73,27 @@ public:
     using Output = Gray8;
 
     static constexpr std::int64_t scratch(int width, int radius) {
-        return (2 * radius + 1) * std::int64_t{word_line_scratch(width)};
+        return line_bytes(width, radius) + Disc::scratch(radius);
     }
 
     BilateralRow() = default;
     BilateralRow(const BilateralOptions& options, Border border, Span<std::uint8_t> scratch, int width)
         : radius_(options.radius),
           border_(border),
-          bytes_(word_line_scratch(width)),
-          first_(scratch.data() + simd::bilateral_bytes * max_reach) {
-        std::memset(scratch.data(), 0, static_cast<std::size_t>(BilateralRow::scratch(width, radius_)));
+          lines_{scratch.data() + Disc::first_bytes, Disc::line_scratch(width), 2 * options.radius + 1, 0} {
+        const std::int64_t bytes = line_bytes(width, radius_);
+        std::memset(scratch.data(), 0, static_cast<std::size_t>(bytes));
         // log2(e) / 2 in 2^-27, which are 2^-11 for sigma in 1/256 px.
         constexpr std::uint32_t half_log2_e = 96817625;
         const auto range = static_cast<std::uint32_t>(options.sigma_range * options.sigma_range);
-        scale_ = simd::BilateralScale::of((half_log2_e + range / 2) / range);
         const auto space = static_cast<std::uint64_t>(options.sigma_space.raw());
-        for (int y = 0; y <= radius_; ++y)
-            while (square_of(y) + square_of(sides_[y] + 1) <= square_of(radius_)) ++sides_[y];
-        for (int square = 0; square <= square_of(radius_); ++square) {
+        const auto exponent_of = [space](int square) {
             const std::uint64_t exponent =
                 (static_cast<std::uint64_t>(square) * half_log2_e + space * space / 2) / (space * space);
-            distances_[square] =
-                static_cast<std::uint32_t>(minimum<std::uint64_t>(exponent, simd::last_exponent)) * 0x10001u;
-        }
+            return static_cast<std::uint32_t>(minimum<std::uint64_t>(exponent, simd::last_exponent));
+        };
+        disc_ = Disc(radius_, simd::BilateralScale::of((half_log2_e + range / 2) / range), exponent_of,
+                     scratch.from(static_cast<std::ptrdiff_t>(bytes)));
     }
 
     int rows() const { return 2 * radius_ + 1; }
@@ -108,68 +102,30 @@ public:
     /// the window.
     void operator()(const RowWindow<Gray8>& window, bool follows, Gray8* dst) {
         const int width = window.width();
-        top_ = follows && top_ + 1 < rows() ? top_ + 1 : 0;
+        lines_.top = follows && lines_.top + 1 < rows() ? lines_.top + 1 : 0;
         for (int i = follows ? rows() - 1 : 0; i < rows(); ++i) {
-            std::uint8_t* line = line_of(i);
-            simd::for_each_vector(width, [&](int x, int count) {
-                std::uint16_t pixels[simd::lanes];
-                simd::Words(count == simd::lanes ? simd::Bytes::load(window[i] + x)
-                                                 : simd::Bytes::load(window[i] + x, count))
-                    .store(pixels);
-                std::memcpy(line + simd::bilateral_bytes * x, pixels, sizeof pixels);
-            });
+            std::uint8_t* line = lines_.at(i);
+            Disc::put(window[i], width, line);
             for (int reach = 1; reach <= radius_; ++reach)
                 for (const int x : {-reach, width - 1 + reach}) {
                     const int column = border_index(border_, x, width);
-                    const std::uint16_t pixel = column == no_index ? std::uint16_t{0} : window[i][column];
-                    std::memcpy(line + simd::bilateral_bytes * x, &pixel, sizeof pixel);
+                    const Disc::Pixel pixel = column == no_index ? Disc::Pixel{0} : window[i][column];
+                    std::memcpy(line + int{sizeof pixel} * x, &pixel, sizeof pixel);
                 }
         }
-        // A copy, so that no store makes the compiler load it again.
-        const BilateralRow row = *this;
-        simd::for_each_vector(width, [&](int x, int count) {
-            const simd::Bytes means = row.means(x);
-            if (count == simd::lanes)
-                means.store(dst + x);
-            else
-                means.store(dst + x, count);
-        });
+        disc_.means(lines_, width, dst);
     }
 
 private:
-    static constexpr int square_of(int side) { return side * side; }
-    /// Of row i of the window.
-    [[gnu::always_inline]] std::uint8_t* line_of(int i) const {
-        return first_ + (top_ + i < rows() ? top_ + i : top_ + i - rows()) * bytes_;
-    }
-
-    [[gnu::always_inline]] simd::Bytes means(int x) const {
-        const std::uint8_t* middle = line_of(radius_) + simd::bilateral_bytes * x;
-        simd::BilateralSums first(middle);
-        simd::BilateralSums second(middle + simd::bilateral_bytes * simd::half_lanes);
-        for (int y = -radius_; y <= radius_; ++y) {
-            const int side = sides_[y < 0 ? -y : y];
-            const std::uint8_t* from = line_of(radius_ + y) + simd::bilateral_bytes * x;
-            for (int i = -side; i <= side; ++i) {
-                const int square = y * y + i * i;
-                if (square == 0) continue;
-                const std::uint8_t* at = from + simd::bilateral_bytes * i;
-                first.add(at, scale_, distances_[square]);
-                second.add(at + simd::bilateral_bytes * simd::half_lanes, scale_, distances_[square]);
-            }
-        }
-        return simd::narrowed(first.means(), second.means());
+    using Disc = simd::BilateralDisc;
+    static constexpr std::int64_t line_bytes(int width, int radius) {
+        return (2 * radius + 1) * std::int64_t{Disc::line_scratch(width)};
     }
 
     int radius_ = 1;
-    int top_ = 0;  ///< which line has the topmost row
     Border border_ = Border::replicate;
-    std::ptrdiff_t bytes_ = 0;
-    std::uint8_t* first_ = nullptr;
-    simd::BilateralScale scale_;
-    std::uint8_t sides_[max_bilateral_radius + 1] =
-        {};  ///< half of the disc's width by the distance of a row
-    std::uint32_t distances_[max_bilateral_radius * max_bilateral_radius + 1] = {};
+    simd::BilateralLines lines_;
+    Disc disc_;
 };
 
 }  // namespace kernels

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Means of neighbours weighed by how far they are and by how much they differ: the arithmetic of bilateral().
+// Means of neighbours weighed by how far they are and by how much they differ: the arithmetic of bilateral(),
+// where vectors compute every weight. bilateral_tables.hpp has the means of all others.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
+#include <fovea/base/span.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/backend.hpp>
 #include <fovea/simd/cells.hpp>
 #include <fovea/simd/halves.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/simd/lines.hpp>
 
 #if FOVEA_BYTES == 32 && defined(__AVX2__)
 #include <immintrin.h>
@@ -20,6 +24,10 @@
 #endif
 
 namespace fovea {
+
+/// The largest radius of bilateral().
+inline constexpr int max_bilateral_radius = 7;
+
 inline namespace FOVEA_ISA {
 namespace simd {
 
@@ -36,8 +44,26 @@ struct BilateralScale {
     static constexpr BilateralScale of(std::uint32_t scale);
 };
 
-/// Sums for half_lanes columns.
-class BilateralSums;
+/// The rows of a window, each in a line of its own; a row keeps its line while the window goes down.
+struct BilateralLines {
+    std::uint8_t* first = nullptr;  ///< column 0 of the first line
+    std::ptrdiff_t bytes = 0;       ///< from a line to the next
+    int rows = 0;
+    int top = 0;  ///< which line has the topmost row
+
+    /// Of row i of the window.
+    [[gnu::always_inline]] std::uint8_t* at(int i) const {
+        return first + (top + i < rows ? top + i : top + i - rows) * bytes;
+    }
+};
+
+/// The neighbours on a disc and their weights.
+///   Pixel                what lines hold, radius more of them than a row has on either side
+///   line_scratch(width)  bytes of a line, first_bytes of them before column 0
+///   scratch(radius)      bytes besides
+///   put(row, width, line)
+///   means(lines, width, dst)
+class BilateralDisc;
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -59,10 +85,10 @@ inline constexpr std::uint16_t power_a = 21950;
 inline constexpr std::uint16_t power_b = 5566;
 /// The weight of the pixel itself.
 inline constexpr std::int32_t own_weight = 32767;
-/// Bytes of a pixel in the lines, which are of 16 bits.
-inline constexpr int bilateral_bytes = 2;
 
-#if FOVEA_BYTES >= 16
+constexpr int square_of(int side) { return side * side; }
+
+#if FOVEA_BYTES >= 16 && !defined(__ARM_FEATURE_MVE)
 
 [[gnu::always_inline]] inline RawWords words_at(const std::uint8_t* from) { return load_raw<RawWords>(from); }
 /// The sum, at most 65535.
@@ -76,6 +102,7 @@ inline constexpr int bilateral_bytes = 2;
 #endif
 }
 
+/// Sums for half_lanes columns.
 class BilateralSums {
 public:
     [[gnu::always_inline]] explicit BilateralSums(const std::uint8_t* centre)
@@ -135,52 +162,70 @@ private:
     Ints moments_[2];
 };
 
-#else
-
-class BilateralSums {
+class BilateralDisc {
 public:
-    explicit BilateralSums(const std::uint8_t* centre) : centre_(centre) {
-        for (std::uint32_t& weight : weights_) weight = own_weight;
+    using Pixel = std::uint16_t;
+    static constexpr int first_bytes = int{sizeof(Pixel)} * max_reach;
+    static constexpr int line_scratch(int width) { return word_line_scratch(width); }
+    static constexpr std::int64_t scratch(int) { return 0; }
+
+    BilateralDisc() = default;
+    /// exponent_of(square of a distance), at most last_exponent.
+    template <class Exponent>
+    BilateralDisc(int radius, const BilateralScale& scale, Exponent exponent_of, Span<std::uint8_t>)
+        : radius_(radius), scale_(scale) {
+        for (int y = 0; y <= radius; ++y)
+            while (square_of(y) + square_of(sides_[y] + 1) <= square_of(radius)) ++sides_[y];
+        for (int square = 0; square <= square_of(radius); ++square)
+            distances_[square] = exponent_of(square) * 0x10001u;
     }
-    void add(const std::uint8_t* from, const BilateralScale& scale, std::uint32_t distance) {
-        for (int i = 0; i < half_lanes; ++i) {
-            const std::int32_t step = pixel(from, i) - pixel(centre_, i);
-            const auto weight = weight_of(static_cast<std::uint32_t>(step * step), scale, distance & 0xffffu);
-            weights_[i] += weight;
-            moments_[i] += step * static_cast<std::int32_t>(weight);
-        }
+
+    static void put(const std::uint8_t* row, int width, std::uint8_t* line) {
+        for_each_vector(width, [&](int x, int count) {
+            Pixel pixels[lanes];
+            Words(count == lanes ? Bytes::load(row + x) : Bytes::load(row + x, count)).store(pixels);
+            std::memcpy(line + pixel_bytes * x, pixels, sizeof pixels);
+        });
     }
-    RawWords means() const {
-        std::uint16_t means[half_lanes];
-        for (int i = 0; i < half_lanes; ++i) {
-            const std::uint32_t found = (magnitude(moments_[i]) + weights_[i] / 2) / weights_[i];
-            const auto by = static_cast<int>(found);
-            const int centre = pixel(centre_, i);
-            means[i] = static_cast<std::uint16_t>(moments_[i] < 0 ? centre - by : centre + by);
-        }
-        return load_raw<RawWords>(means);
+    void means(const BilateralLines& lines, int width, std::uint8_t* dst) const {
+        // Copies, so that no store makes the compiler load them again.
+        const BilateralDisc disc = *this;
+        const BilateralLines rows = lines;
+        for_each_vector(width, [&](int x, int count) {
+            const Bytes means = disc.means(rows, x);
+            if (count == lanes)
+                means.store(dst + x);
+            else
+                means.store(dst + x, count);
+        });
     }
 
 private:
-    static int pixel(const std::uint8_t* from, int number) {
-        std::uint16_t value;
-        std::memcpy(&value, from + bilateral_bytes * number, sizeof value);
-        return value;
-    }
-    static std::uint32_t weight_of(std::uint32_t square, const BilateralScale& scale,
-                                   std::uint32_t distance) {
-        square = minimum<std::uint32_t>(square, scale.most) * scale.raise;
-        const std::uint32_t exponent =
-            minimum<std::uint32_t>((square * (scale.factor & 0xffffu) >> 16) + distance, last_exponent);
-        const std::uint32_t part = exponent << 5 & 0xffffu;
-        std::uint32_t power = power_a - (part * power_b >> 16);
-        power = own_weight - (part * power >> 16);
-        return power >> (exponent >> 11);
+    static constexpr int pixel_bytes = sizeof(Pixel);
+
+    [[gnu::always_inline]] Bytes means(const BilateralLines& lines, int x) const {
+        const std::uint8_t* middle = lines.at(radius_) + pixel_bytes * x;
+        BilateralSums first(middle);
+        BilateralSums second(middle + pixel_bytes * half_lanes);
+        for (int y = -radius_; y <= radius_; ++y) {
+            const int side = sides_[y < 0 ? -y : y];
+            const std::uint8_t* from = lines.at(radius_ + y) + pixel_bytes * x;
+            for (int i = -side; i <= side; ++i) {
+                const int square = y * y + i * i;
+                if (square == 0) continue;
+                const std::uint8_t* at = from + pixel_bytes * i;
+                first.add(at, scale_, distances_[square]);
+                second.add(at + pixel_bytes * half_lanes, scale_, distances_[square]);
+            }
+        }
+        return narrowed(first.means(), second.means());
     }
 
-    const std::uint8_t* centre_;
-    std::uint32_t weights_[half_lanes];
-    std::int32_t moments_[half_lanes] = {};
+    int radius_ = 1;
+    BilateralScale scale_;
+    /// Half of the disc's width by the distance of a row.
+    std::uint8_t sides_[max_bilateral_radius + 1] = {};
+    std::uint32_t distances_[max_bilateral_radius * max_bilateral_radius + 1] = {};
 };
 
 #endif
