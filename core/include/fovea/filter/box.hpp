@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/filter/box_running.hpp>
 #include <fovea/image/border.hpp>
 #include <fovea/image/filter_row.hpp>
 #include <fovea/image/image_view.hpp>
@@ -52,7 +54,8 @@ inline Status box_5x5(ImageView<const Gray8> src, Border border, Span<std::uint8
 /// Rounding nearest; the largest sum is 63 * 63 * 255
 /// Scratch  box_scratch(src.size()) bytes, undefined afterwards
 /// Errors   also bad_argument for an even, too small or too large element
-/// Time     grows with the logarithm of the element's width; its height costs nothing
+/// Time     grows with the logarithm of the element's width, without vectors not at all; its height costs
+///          nothing
 /// Others   as box_3x3()
 inline Status box(ImageView<const Gray8> src, Size element, Border border, Span<std::uint8_t> scratch,
                   ImageView<Gray8> dst);
@@ -101,36 +104,31 @@ constexpr bool is_box_element(Size element) {
            element.width <= max_window_rows && element.height <= max_window_rows;
 }
 
-/// The row kernel of box(): columns are summed down the window, then neighbours across.
-///
-/// follows says that the window is one row below that of the call before: then a column's sum has lost the
-/// row that left, and gains the new one.
-class BoxRow {
+/// The row kernel of box() in vectors: columns are summed down the window as BoxRunningRow does it, then
+/// neighbours across.
+class BoxVectorRow {
 public:
     using Input = Gray8;
     using Output = Gray8;
 
     /// Up to this many pixels a sum and half of them fit 16 bits.
     static constexpr int most_narrow_area = 255;
-    /// From this width on vectors sum across a large element too. Short ones, whose numbers share a register,
-    /// cannot: they let sums grow beyond 16 bits.
-    static constexpr bool wide_in_vectors = simd::lanes >= 16;
-    static constexpr int lines = wide_in_vectors ? 5 : 4;
+    static constexpr int lines = 5;
     static constexpr std::int64_t scratch(int width) {
         return lines * std::int64_t{word_line_scratch(width)};
     }
 
-    BoxRow() = default;
-    BoxRow(Size element, Border border, Span<std::uint8_t> scratch, int width)
+    BoxVectorRow() = default;
+    BoxVectorRow(Size element, Border border, Span<std::uint8_t> scratch, int width)
         : element_(element),
           border_(border),
           columns_(line(scratch, width, 0)),
           remaining_(line(scratch, width, 1)),
           fours_(line(scratch, width, 2)),
-          sixteens_(line(scratch, width, 3)) {
-        if constexpr (wide_in_vectors) coarse_sixteens_ = line(scratch, width, 4);
+          sixteens_(line(scratch, width, 3)),
+          coarse_sixteens_(line(scratch, width, 4)) {
         // As in FilterRow: no column beyond the end may carry into one that counts.
-        std::memset(scratch.data(), 0, static_cast<std::size_t>(BoxRow::scratch(width)));
+        std::memset(scratch.data(), 0, static_cast<std::size_t>(BoxVectorRow::scratch(width)));
     }
 
     int rows() const { return element_.height; }
@@ -142,15 +140,11 @@ public:
         else
             down(window, width);
         continue_ends(width);
-        if (narrow()) {
-            add_fours(width);
+        add_fours(width);
+        if (narrow())
             divide_narrow(width, dst);
-        } else if constexpr (wide_in_vectors) {
-            add_fours(width);
+        else
             divide_wide(width, dst);
-        } else {
-            across_one_by_one(width, dst);
-        }
     }
 
 private:
@@ -216,8 +210,7 @@ private:
             const simd::Words c = fours.at<8>(x);
             const simd::Words d = fours.at<12>(x);
             sixteens.put(x, (a + b) + (c + d));
-            if constexpr (wide_in_vectors)
-                coarse_sixteens.put(x, ((a >> coarse) + (b >> coarse)) + ((c >> coarse) + (d >> coarse)));
+            coarse_sixteens.put(x, ((a >> coarse) + (b >> coarse)) + ((c >> coarse) + (d >> coarse)));
         }
     }
     simd::Words across_narrow(int x) const {
@@ -322,20 +315,6 @@ private:
                 (quotient + (at_least(rest, simd::Words::all(divisor)) & one)).narrow().store(dst + x, count);
             });
     }
-    /// A running sum of 32 bits.
-    void across_one_by_one(int width, Gray8* dst) const {
-        const int reach = element_.width / 2;
-        const auto area = static_cast<std::uint32_t>(element_.width * element_.height);
-        // Less than area too much for 2^32 of them, and sums are below 2^20: exact.
-        const std::uint32_t reciprocal = 0xffffffffu / area + 1;
-        std::uint32_t sum = area / 2;
-        for (int x = -reach; x < reach; ++x) sum += columns_.value(x);
-        for (int x = 0; x < width; ++x) {
-            sum += columns_.value(x + reach);
-            dst[x] = static_cast<Gray8>(std::uint64_t{sum} * reciprocal >> 32);
-            sum -= columns_.value(x - reach);
-        }
-    }
 
     Size element_{1, 1};
     Border border_ = Border::replicate;
@@ -343,6 +322,9 @@ private:
     simd::WordLine columns_, remaining_;
     simd::WordLine fours_, sixteens_, coarse_sixteens_;
 };
+
+/// The row kernel of box(). Words, whose numbers share a register, cannot let sums grow beyond 16 bits.
+using BoxRow = std::conditional_t<(simd::lanes > 4), BoxVectorRow, BoxRunningRow>;
 
 }  // namespace kernels
 
