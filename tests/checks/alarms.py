@@ -560,6 +560,13 @@ MICROBIT = " ".join(
      *(f"-I{PROJECT / path}" for path in ("core/include", "hal/include", "tests")), f"-I{PORT}/include -I{PORT}/microbit",
      *(f"{PORT}/startup/{file}.cpp" for file in ("start", "cortex_m", "memory"))])
 
+# The headers of C++ are those of the Arm compiler, as in toolchains/rv32imac.cmake.
+SIFIVE = " ".join(
+    ["riscv64-unknown-elf-g++ -std=c++17 -march=rv32imac -mabi=ilp32 -misa-spec=2.2 -mcmodel=medany -ffreestanding -Os",
+     "-fno-exceptions -fno-rtti -fno-tree-loop-distribute-patterns -nostdinc++",
+     *(f"-isystem /usr/include/newlib{path}" for path in
+       ("/c++/$(arm-none-eabi-gcc -dumpversion)", "/c++/$(arm-none-eabi-gcc -dumpversion)/arm-none-eabi", ""))])
+
 # A chip's program that is as large as a fault.
 CHIP = """#include <board.hpp>
 #include <target/print.hpp>
@@ -646,11 +653,17 @@ int main() { return turn(fovea_sink) & 1; }
 
 def target_call_depth(folder):
     """call_depth.py must see a chain that is too deep, also behind a pointer, recursion, and a run that went deeper."""
-    def depth(name, turn="small(n)", step="small", stack=1024, measured=0):
+    compile_for = {
+        "arm": ("arm-none-eabi-g++ -std=c++17 -mcpu=cortex-m0 -mthumb -Os -fno-exceptions", MICROBIT),
+        "riscv": (SIFIVE, f"{SIFIVE} -nostdlib -static -Wl,--gc-sections -Wl,--entry=fovea_reset -T {PORT}/sifive_e/memory.ld "
+                          f"-T {PORT}/startup/sections.ld -I{PROJECT}/core/include -I{PROJECT}/hal/include -I{PORT}/include "
+                          f"-I{PORT}/sifive_e " + " ".join(f"{PORT}/startup/{file}.cpp" for file in ("start", "riscv", "memory")))}
+
+    def depth(name, turn="small(n)", step="small", stack=1024, measured=0, processor="arm"):
         place = write(folder / name, {"depth.cpp": DEPTH})
-        return ["sh", "-c", f"cd {place} && arm-none-eabi-g++ -std=c++17 -mcpu=cortex-m0 -mthumb -Os -fno-exceptions -fcallgraph-info=su "
-                            f"'-DTURN={turn}' -DSTEP={step} -c depth.cpp -o depth.obj && "
-                            f"{MICROBIT} -Wl,--defsym=fovea_stack_size={stack} depth.obj -lgcc -o program && "
+        compiler, linker = compile_for[processor]
+        return ["sh", "-c", f"cd {place} && {compiler} -fcallgraph-info=su '-DTURN={turn}' -DSTEP={step} -c depth.cpp -o depth.obj && "
+                            f"{linker} -Wl,--defsym=fovea_stack_size={stack} depth.obj -lgcc -o program && "
                             f"{CHECKS}/call_depth.py program . --measured {measured}"]
 
     yield "a shallow program", depth("shallow", measured=50), None
@@ -661,6 +674,11 @@ def target_call_depth(folder):
     yield "a frame of any size", depth("any", turn="({ volatile char room[n + 8]; room[n] = 1; room[n / 2]; })"), \
         "a frame of unknown size"
     yield "a run that went deeper", depth("measured", measured=700), "a run took 700 bytes"
+    yield "RISC-V, a deep program with room", depth("riscv", "large(n)", processor="riscv"), None
+    yield "RISC-V, one that is too deep", depth("riscv_deep", "large(n)", stack=512, processor="riscv"), \
+        "bytes of stack, and there are 512"
+    yield "RISC-V, behind a pointer", depth("riscv_pointer", "chosen(n)", "large", 512, processor="riscv"), \
+        "bytes of stack, and there are 512"
     yield "no notes", ["sh", "-c", f"mkdir -p {folder}/none && {CHECKS}/call_depth.py {folder}/shallow/program {folder}/none"], \
         "no notes"
 

@@ -3,8 +3,8 @@
 
 Frames and calls come from the compiler's notes (-fcallgraph-info=su). A call through a pointer may reach every function
 whose address the object files take. Functions that the compiler did not write, of libgcc, are read from the program:
-what they push, and whom they call. On top comes the frame that the processor stacks for an interrupt, and the deepest
-interrupt.
+what they push, and whom they call. On Arm, the frame that the processor stacks for an interrupt and the deepest interrupt
+come on top; the boards with RISC-V have none.
 
 usage: call_depth.py PROGRAM FOLDER... [--measured BYTES]    the notes and object files below the folders; the depth
        that a run has reached must not be above what is read here
@@ -15,10 +15,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-ENTRY = "fovea_reset"
-INTERRUPTS = ("fovea_systick",)
-# Eight words, and one to align them.
-EXCEPTION_FRAME = 36
 INDIRECT = "__indirect_call"
 
 NODE = re.compile(r'^node: \{ title: "([^"]*)" label: "([^"]*)"')
@@ -26,8 +22,50 @@ EDGE = re.compile(r'^edge: \{ sourcename: "([^"]*)" targetname: "([^"]*)"')
 FRAME = re.compile(r"\\n(\d+) bytes \(([^)]*)\)")
 SYMBOL = re.compile(r"^([0-9a-f]+) <(.*)>:$")
 INSTRUCTION = re.compile(r"^ *[0-9a-f]+:\t(\S+)\s*(.*)$")
-# In a table or a literal, or as two instructions.
-TAKEN = re.compile(r"R_ARM_(?:ABS32|THM_MOVW_ABS_NC)\s+(?:\.text\.)?(\S+)")
+
+
+class Arm:
+    tools = "arm-none-eabi-"
+    entry = "fovea_reset"
+    interrupts = ("fovea_systick",)
+    # Eight words, and one to align them.
+    exception_frame = 36
+    # In a table or a literal, or as two instructions.
+    taken = re.compile(r"R_ARM_(?:ABS32|THM_MOVW_ABS_NC)\s+(?:\.text\.)?(\S+)")
+    jump = re.compile(r"b(l|x|\.[nw])?$|b[a-z]{2}(\.[nw])?$")
+
+    @staticmethod
+    def stacked(word, rest):
+        """Bytes that an instruction takes of the stack."""
+        if word.startswith("push") or (word.startswith("stmdb") and rest.startswith("sp!")):
+            return 4 * registers(rest)
+        if re.match(r"sub(\.w|w)?$", word) and (size := re.match(r"sp, (?:sp, )?#(\d+)", rest)):
+            return int(size[1])
+        stored = re.search(r"\[sp, #-(\d+)\]!", rest)
+        return int(stored[1]) if stored else 0
+
+    @staticmethod
+    def begins_frame(word, rest):
+        return word.startswith(("push", "stmdb")) and "lr" in rest
+
+
+class RiscV:
+    tools = "riscv64-unknown-elf-"
+    # What lies in front of it has no stack yet.
+    entry = "fovea_start"
+    interrupts = ()
+    exception_frame = 0
+    taken = re.compile(r"R_RISCV_(?:32|HI20|PCREL_HI20)\s+(?:\.text\.)?([^\s+]+)")
+    jump = re.compile(r"jal?$|b[a-z]+$|tail$")
+
+    @staticmethod
+    def stacked(word, rest):
+        taken = re.match(r"sp,sp,-(\d+)", rest) if word == "addi" else None
+        return int(taken[1]) if taken else 0
+
+    @staticmethod
+    def begins_frame(word, rest):
+        return False
 
 
 def run(*command):
@@ -40,7 +78,8 @@ def plain(title):
 
 
 class Calls:
-    def __init__(self):
+    def __init__(self, processor):
+        self.processor = processor
         self.frames, self.calls, self.taken, self.program, self.reached, self.problems = {}, {}, set(), set(), set(), []
 
     def read_notes(self, path):
@@ -55,19 +94,19 @@ class Calls:
                 self.calls.setdefault(plain(found[1]), set()).add(plain(found[2]))
 
     def read_object(self, path):
-        self.taken |= set(TAKEN.findall(run("arm-none-eabi-objdump", "-r", str(path))))
+        self.taken |= set(self.processor.taken.findall(run(self.processor.tools + "objdump", "-r", str(path))))
 
     def read_program(self, path):
         """What the notes do not tell of: functions that the compiler did not write, and words of an argument that came in
         registers and are laid on the stack in front of a frame. A function may have several names."""
         names = {}
-        for line in run("arm-none-eabi-nm", str(path)).splitlines():
+        for line in run(self.processor.tools + "nm", str(path)).splitlines():
             words = line.split()
             if len(words) == 3 and words[1] in "tTwW":
                 names.setdefault(int(words[0], 16), []).append(words[2])
                 self.program.add(words[2])
         pushed, front, name = {}, {}, None
-        for line in run("arm-none-eabi-objdump", "-d", "--no-show-raw-insn", str(path)).splitlines():
+        for line in run(self.processor.tools + "objdump", "-d", "--no-show-raw-insn", str(path)).splitlines():
             if found := SYMBOL.match(line):
                 here = names.get(int(found[1], 16))
                 # Other labels are no functions.
@@ -79,16 +118,10 @@ class Calls:
                             self.frames[other], self.calls[other] = 0, {name}
             elif name and (found := INSTRUCTION.match(line)):
                 word, rest = found.groups()
-                taken = 0
-                if word.startswith("push") or (word.startswith("stmdb") and rest.startswith("sp!")):
-                    taken = 4 * registers(rest)
-                    if "lr" in rest and front[name] is None:
-                        front[name] = pushed[name]
-                elif re.match(r"sub(\.w|w)?$", word) and (size := re.match(r"sp, (?:sp, )?#(\d+)", rest)):
-                    taken = int(size[1])
-                elif stored := re.search(r"\[sp, #-(\d+)\]!", rest):
-                    taken = int(stored[1])
-                elif name not in self.frames and re.match(r"b(l|x|\.[nw])?$|b[a-z]{2}(\.[nw])?$", word):
+                taken = self.processor.stacked(word, rest)
+                if front[name] is None and self.processor.begins_frame(word, rest):
+                    front[name] = pushed[name]
+                if taken == 0 and name not in self.frames and self.processor.jump.match(word):
                     to = re.search(r"<([^+>]*)>", rest)
                     if to and to[1] != name:
                         self.calls.setdefault(name, set()).add(to[1])
@@ -121,7 +154,8 @@ class Calls:
         return answer
 
     def taken_functions(self):
-        return {name for name in self.taken if name in self.program and name not in (ENTRY, *INTERRUPTS, "fovea_fault")}
+        never = (self.processor.entry, *self.processor.interrupts, "fovea_fault")
+        return {name for name in self.taken if name in self.program and name not in never}
 
 
 def registers(text):
@@ -141,7 +175,9 @@ def main():
     parser.add_argument("folders", nargs="+", type=Path)
     parser.add_argument("--measured", type=int, default=0)
     options = parser.parse_args()
-    calls = Calls()
+    # The number of the machine in an ELF file.
+    processor = {40: Arm, 243: RiscV}[int.from_bytes(options.program.read_bytes()[18:20], "little")]
+    calls = Calls(processor)
     notes = [path for folder in options.folders for path in sorted(folder.rglob("*.ci"))]
     for path in notes:
         calls.read_notes(path)
@@ -149,11 +185,11 @@ def main():
         for path in sorted(folder.rglob("*.obj")):
             calls.read_object(path)
     calls.read_program(options.program)
-    places = {line.split()[2]: int(line.split()[0], 16) for line in run("arm-none-eabi-nm", str(options.program)).splitlines()
+    places = {line.split()[2]: int(line.split()[0], 16) for line in run(processor.tools + "nm", str(options.program)).splitlines()
               if len(line.split()) == 3}
     room = places["fovea_stack_top"] - places["fovea_stack_limit"]
-    depth, chain = calls.deepest(ENTRY)
-    interrupt = EXCEPTION_FRAME + max(calls.deepest(name)[0] for name in INTERRUPTS)
+    depth, chain = calls.deepest(processor.entry)
+    interrupt = processor.exception_frame + max((calls.deepest(name)[0] for name in processor.interrupts), default=0)
     most = depth + interrupt
     if "main" not in calls.reached:
         calls.problems.append("main is not called")

@@ -113,13 +113,13 @@ template <class Visit>
 }
 
 /// Makes words of a row from those of another where one instruction takes two of them, which lie at multiples
-/// of 4, and returns the columns done: up to 63 are left, on other processors all.
+/// of 4, and returns the columns done: up to 63 are left; all on other processors, and where size matters.
 template <class Operation>
 [[gnu::always_inline]] inline int make_pairs([[maybe_unused]] const std::uint8_t* src,
                                              [[maybe_unused]] int width, [[maybe_unused]] Operation op,
                                              [[maybe_unused]] std::uint8_t* dst) {
     int x = 0;
-#if FOVEA_BYTES == 4 && defined(__thumb2__)
+#if FOVEA_BYTES == 4 && defined(__thumb2__) && !defined(__OPTIMIZE_SIZE__)
     using Word [[gnu::may_alias]] = std::uint32_t;
     if (((reinterpret_cast<std::uintptr_t>(src) | reinterpret_cast<std::uintptr_t>(dst)) & 3) != 0) return 0;
     for (; x + 64 <= width; x += 64)
