@@ -17,6 +17,8 @@
 #include <immintrin.h>
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
 #include <emmintrin.h>
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+#include <arm_mve.h>
 #endif
 
 namespace fovea {
@@ -53,6 +55,10 @@ inline constexpr int places = FOVEA_BYTES / 4;
     return bits_as<Ints>(_mm256_madd_epi16(bits_as<__m256i>(a), bits_as<__m256i>(b)));
 #elif FOVEA_BYTES == 16 && defined(__SSE2__)
     return bits_as<Ints>(_mm_madd_epi16(bits_as<__m128i>(a), bits_as<__m128i>(b)));
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    const auto x = bits_as<int16x8_t>(a);
+    const auto y = bits_as<int16x8_t>(b);
+    return bits_as<Ints>(vaddq_s32(vmullbq_int_s16(x, y), vmulltq_int_s16(x, y)));
 #else
     return ((a << 16) >> 16) * ((b << 16) >> 16) + (a >> 16) * (b >> 16);
 #endif
@@ -69,6 +75,13 @@ inline constexpr int places = FOVEA_BYTES / 4;
     const __m128i ab = _mm_packs_epi32(bits_as<__m128i>(a), bits_as<__m128i>(b));
     const __m128i cd = _mm_packs_epi32(bits_as<__m128i>(c), bits_as<__m128i>(d));
     return bits_as<RawBytes>(_mm_packus_epi16(ab, cd));
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    std::uint8_t bytes[FOVEA_BYTES];
+    vstrbq_s32(reinterpret_cast<std::int8_t*>(bytes), bits_as<int32x4_t>(a));
+    vstrbq_s32(reinterpret_cast<std::int8_t*>(bytes + places), bits_as<int32x4_t>(b));
+    vstrbq_s32(reinterpret_cast<std::int8_t*>(bytes + 2 * places), bits_as<int32x4_t>(c));
+    vstrbq_s32(reinterpret_cast<std::int8_t*>(bytes + 3 * places), bits_as<int32x4_t>(d));
+    return load_raw<RawBytes>(bytes);
 #else
     std::int32_t lanes_of[FOVEA_BYTES];
     store_ints(a, lanes_of);
@@ -124,6 +137,13 @@ inline constexpr int places = FOVEA_BYTES / 4;
     cells = _mm_insert_epi16(cells, word(first + high(pairs[1])), 6);
     cells = _mm_insert_epi16(cells, word(below + high(pairs[1])), 7);
     return bits_as<Ints>(cells);
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    // Byte by byte: a pair may begin at any address.
+    const auto at = bits_as<uint32x4_t>(offsets);
+    const auto pixels = [&](const std::uint8_t* from) { return vldrbq_gather_offset_u32(from, at); };
+    uint32x4_t cells = vsliq_n_u32(pixels(first), pixels(first + 1), 8);
+    cells = vsliq_n_u32(cells, pixels(first + stride), 16);
+    return bits_as<Ints>(vsliq_n_u32(cells, pixels(first + stride + 1), 24));
 #else
     std::int32_t at[places];
     std::int32_t cells[places];
@@ -144,6 +164,8 @@ inline constexpr int places = FOVEA_BYTES / 4;
     const Ints fours = gather(first, start);
     const Ints drop = (offsets - start) << 3;
     return bits_as<Ints>(_mm256_srlv_epi32(bits_as<__m256i>(fours), bits_as<__m256i>(drop))) & 255;
+#elif FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
+    return bits_as<Ints>(vldrbq_gather_offset_u32(first, bits_as<uint32x4_t>(offsets)));
 #else
     std::int32_t at[places];
     std::int32_t pixels[places];
