@@ -13,6 +13,7 @@
 #include <fovea/simd/interleave.hpp>
 #include <fovea/simd/isa.hpp>
 #include <fovea/simd/lanes.hpp>
+#include <fovea/simd/mosaic.hpp>
 
 namespace fovea {
 
@@ -120,19 +121,34 @@ template <bool Red>
 void demosaic_inside(const BayerRows& rows, int width, BayerRow row, Rgb888* dst) {
     constexpr int lanes = simd::lanes;
     int x = 1;
-    if (row.coloured == 1)
-        for (; x + lanes < width; x += lanes) demosaic_step<true, Red>(rows, x, dst);
-    else
-        for (; x + lanes < width; x += lanes) demosaic_step<false, Red>(rows, x, dst);
-    if (x == width - 1) return;
-    // The last vector again, as far to the right as it goes.
-    if (width - 2 >= lanes) {
-        x = width - 1 - lanes;
-        if (x % 2 == row.coloured)
-            demosaic_step<true, Red>(rows, x, dst);
+    if constexpr (simd::mosaic_runs) {
+        const auto run = [&](int from, int count) {
+            simd::demosaic_run<Red>({rows.above + from, rows.here + from, rows.below + from}, count,
+                                    &dst[from].red);
+            x = from + count;
+        };
+        // From a coloured pixel on.
+        for (; x < width - 1 && x % 2 != row.coloured; ++x)
+            dst[x] = demosaic_pixel(rows, x - 1, x, x + 1, row);
+        const int first = x;
+        run(first, (width - 1 - first) / lanes * lanes);
+        // The last vector again, as far to the right as it goes.
+        if (x > first && x < width - 2) run(width - 1 - lanes - (width - 1 - first) % 2, lanes);
+    } else {
+        if (row.coloured == 1)
+            for (; x + lanes < width; x += lanes) demosaic_step<true, Red>(rows, x, dst);
         else
-            demosaic_step<false, Red>(rows, x, dst);
-        return;
+            for (; x + lanes < width; x += lanes) demosaic_step<false, Red>(rows, x, dst);
+        if (x == width - 1) return;
+        // The last vector again, as far to the right as it goes.
+        if (width - 2 >= lanes) {
+            x = width - 1 - lanes;
+            if (x % 2 == row.coloured)
+                demosaic_step<true, Red>(rows, x, dst);
+            else
+                demosaic_step<false, Red>(rows, x, dst);
+            return;
+        }
     }
     for (; x < width - 1; ++x) dst[x] = demosaic_pixel(rows, x - 1, x, x + 1, row);
 }

@@ -299,12 +299,25 @@ using RawWords = std::uint32_t;
 }
 // The half of the lower column lies where memory has it first.
 inline constexpr bool big_endian_words = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+#if defined(__ARM_FEATURE_SIMD32) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+[[gnu::always_inline]] inline RawWords interleave_first(RawWords a, RawWords b) {
+    RawWords first;
+    asm("pkhbt %0, %1, %2, lsl #16" : "=r"(first) : "r"(a), "r"(b));
+    return first;
+}
+[[gnu::always_inline]] inline RawWords interleave_second(RawWords a, RawWords b) {
+    RawWords second;
+    asm("pkhtb %0, %1, %2, asr #16" : "=r"(second) : "r"(b), "r"(a));
+    return second;
+}
+#else
 [[gnu::always_inline]] inline RawWords interleave_first(RawWords a, RawWords b) {
     return big_endian_words ? (a & 0xffff0000u) | b >> 16 : (a & 0xffffu) | b << 16;
 }
 [[gnu::always_inline]] inline RawWords interleave_second(RawWords a, RawWords b) {
     return big_endian_words ? a << 16 | (b & 0xffffu) : a >> 16 | (b & 0xffff0000u);
 }
+#endif
 [[gnu::always_inline]] inline RawWords even_words(RawWords a, RawWords b) { return interleave_first(a, b); }
 [[gnu::always_inline]] inline RawWords odd_words(RawWords a, RawWords b) { return interleave_second(a, b); }
 
