@@ -36,8 +36,8 @@ struct TableBlend {
             vst1q_u32(step + level, vsubq_u32(both(right), from));
         }
 #else
-        for (int first = 0; first < 256; first += 4)
-            unroll<4>([&](auto i) {
+        for (int first = 0; first < 256; first += 8)
+            unroll<8>([&](auto i) {
                 const int level = first + i;
                 const std::uint32_t from = std::uint32_t{above[level]} | std::uint32_t{below[level]} << 16;
                 const std::uint32_t to =
