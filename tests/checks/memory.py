@@ -37,8 +37,8 @@ and every operator that wants scratch has a function that tells how much, for mo
 
 ## Scratch
 
-Bytes for images of four sizes, on a 64-bit processor with vectors of 16 bytes. Chips want a few bytes less, without vectors
-for `box` less than half, but for `bilateral` its tables more.
+Bytes for images of four sizes, on a 64-bit processor with vectors of 16 bytes. Chips want a few bytes less, without
+vectors for `box` less than half, but for `bilateral` its tables more.
 connected_components takes labels for as many open regions and holes as a restless image can have; an image of calm
 parts does with the 64 of the second line, and answers scratch_too_small if it does not.
 
