@@ -9,6 +9,10 @@ list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES FOVEA_CHIP_COMPILER)
 set(fovea_compiler "")
 if("${FOVEA_CHIP_COMPILER}" STREQUAL "clang")
   set(CMAKE_CXX_COMPILER clang++)
+  # All but the M0 load words at any address; GCC does so without being told.
+  if(NOT fovea_chip STREQUAL "cortex-m0")
+    list(APPEND fovea_clang_options -munaligned-access)
+  endif()
   execute_process(COMMAND arm-none-eabi-gcc -dumpversion OUTPUT_VARIABLE fovea_gcc OUTPUT_STRIP_TRAILING_WHITESPACE)
   set(fovea_headers /usr/include/newlib/c++/${fovea_gcc})
   set(fovea_compiler --target=${fovea_clang_target} ${fovea_clang_options} -nostdinc++ -isystem ${fovea_headers}
