@@ -363,22 +363,19 @@ def golden(folder):
     yield "an excuse without a reason", tree("reason", NEW_OPERATOR, "pixelwise/sharpen.hpp\n"), "no reason for"
     yield "an excuse for nothing", tree("nothing", {}, "blur  a reason\n"), "nothing is called blur"
 
-    def computed(name, table, header="", old="", new=""):
-        made = copy_of_project(folder / name)
-        if header:
-            replace(made / header, old, new)
-        return ["sh", "-c", f"cd {made} && g++ -std=c++17 -O1 -Icore/include -Itests tests/golden/table.cpp -o table && "
-                            f"{CHECKS}/golden.py --table {table} ./table"]
-
     table = PROJECT / "tests/golden/golden.txt"
     lines = table.read_text().split("\n")
     name, checksum = lines[-2].split()
     lines[-2] = f"{name} {int(checksum, 16) ^ 1:08x}"
     off = write(folder, {"off.txt": "\n".join(lines)}) / "off.txt"
-    yield "the table", computed("table", table), None
-    yield "a checksum off by one", computed("off", off), "the bits differ"
-    yield "an operator off by a little", computed("little", table, "core/include/fovea/pixelwise/to_gray.hpp", "9797, 19235",
-                                                  "9798, 19234"), "pixelwise/to_gray"
+    yield "the table", [CHECKS / "golden.py", "--table", table, "cat", table], None
+    yield "a checksum off by one", [CHECKS / "golden.py", "--table", table, "cat", off], "the bits differ"
+    # That the whole tree prints the table, is a step of tests/run; without optimisation by Clang it compiles soonest.
+    little = copy_of_project(folder / "little")
+    replace(little / "core/include/fovea/pixelwise/to_gray.hpp", "9797, 19235", "9798, 19234")
+    yield "an operator off by a little", [
+        "sh", "-c", f"cd {little} && clang++ -std=c++17 -O0 -Icore/include -Itests tests/golden/table.cpp -o table && "
+                    f"{CHECKS}/golden.py --table {table} ./table"], "pixelwise/to_gray"
     yield "a program that fails", [CHECKS / "golden.py", "--table", table, "false"], "ended with 1"
 
 
