@@ -83,7 +83,7 @@ Picture<Gray8> bar() {
                       back_light(), 1004);
 }
 /// Lying as it lies: the frame is along the rows, its origin at about (49.1, 40).
-Recipe recipe_of(const std::vector<Feature>& features) {
+Recipe recipe_with(const std::vector<Feature>& features) {
     Recipe recipe;
     recipe.locate.orientation = OrientationRule::none;
     recipe.locate.pose = PoseRule::outline;
@@ -113,13 +113,13 @@ TEST(Explain, DrawsTheProbeOfAFeatureWithoutAValueInTheColourOfNotMeasured) {
     Feature width = feature_of("w", FeatureKind::width, 30);
     width.from = at(-10, -25);
     width.to = at(-10, 25);
-    const Picture<Rgb888> good = explained(recipe_of({width}));
+    const Picture<Rgb888> good = explained(recipe_with({width}));
     EXPECT_GT(count_of(good, colour_probe), 20);
     EXPECT_EQ(count_of(good, colour_unmeasured), 0);
     // Beside the part.
     width.from = at(-10, 20);
     width.to = at(20, 20);
-    const Picture<Rgb888> bad = explained(recipe_of({width}));
+    const Picture<Rgb888> bad = explained(recipe_with({width}));
     EXPECT_EQ(count_of(bad, colour_probe), 0);
     for (int x = 45; x < 65; ++x) {
         bool orange = false;
@@ -133,7 +133,7 @@ TEST(Explain, DrawsACircleThatIsFartherThanAnyImage) {
     Feature hole = feature_of("h", FeatureKind::hole_diameter, 12);
     hole.centre = at(-23000, -23000);
     hole.search = 9000000000;
-    EXPECT_EQ(explained(recipe_of({hole})).size, (Size{400, 320}));
+    EXPECT_EQ(explained(recipe_with({hole})).size, (Size{400, 320}));
 }
 
 TEST(Explain, CirclesWhereAHoleIsNotFound) {
@@ -141,7 +141,7 @@ TEST(Explain, CirclesWhereAHoleIsNotFound) {
         Feature hole = feature_of("h", kind, 12);
         hole.centre = at(-15, 0);
         hole.search = 5000000;
-        const Recipe recipe = recipe_of({hole});
+        const Recipe recipe = recipe_with({hole});
         const std::vector<PartResult> parts = gauged(bar(), recipe);
         ASSERT_EQ(parts.size(), 1u);
         EXPECT_NE(parts[0].features[0].status, Status::ok);
@@ -163,7 +163,7 @@ TEST(Explain, ShowsTheRingInWhichADiameterIsNotFound) {
     circle.centre = at(-15, 0);
     circle.radius = 8000000;
     circle.search = 2000000;
-    const Picture<Rgb888> drawn = explained(recipe_of({circle}));
+    const Picture<Rgb888> drawn = explained(recipe_with({circle}));
     EXPECT_EQ(count_of(drawn, colour_ok), 0);
     for (const int radius : {6, 10}) {
         bool rim = false;
@@ -180,7 +180,7 @@ TEST(Explain, PutsTheLabelOfAnAngleThatFailsBesideItsEdges) {
     angle.second_from = at(0, 2);
     angle.second_to = at(0, 12);
     angle.search = 1000000;
-    const Picture<Rgb888> drawn = explained(recipe_of({angle}));
+    const Picture<Rgb888> drawn = explained(recipe_with({angle}));
     EXPECT_EQ(count_of(drawn, colour_probe), 0);
     EXPECT_TRUE(has(drawn, {4 * 40 + 2, 161}, colour_unmeasured) ||
                 has(drawn, {4 * 40 + 2, 162}, colour_unmeasured));
@@ -193,16 +193,16 @@ TEST(Explain, PutsTheLabelOfAnAngleThatFailsBesideItsEdges) {
 }
 
 TEST(Explain, ShowsTheHoleCountBelowTheTitleInTheColourOfItsVerdict) {
-    const Picture<Rgb888> good = explained(recipe_of({feature_of("holes", FeatureKind::hole_count, 1)}));
+    const Picture<Rgb888> good = explained(recipe_with({feature_of("holes", FeatureKind::hole_count, 1)}));
     EXPECT_TRUE(shows(good, "part 0 OK", colour_ok));
     EXPECT_TRUE(shows(good, "holes 1", colour_ok));
-    const Picture<Rgb888> bad = explained(recipe_of({feature_of("holes", FeatureKind::hole_count, 3)}));
+    const Picture<Rgb888> bad = explained(recipe_with({feature_of("holes", FeatureKind::hole_count, 3)}));
     EXPECT_TRUE(shows(bad, "part 0 NOT OK", colour_bad));
     EXPECT_TRUE(shows(bad, "holes 1 LOW (least 2.5)", colour_bad));
 }
 
 TEST(Explain, SaysWhyAPartIsNotJudged) {
-    Recipe recipe = recipe_of({feature_of("holes", FeatureKind::hole_count, 0)});
+    Recipe recipe = recipe_with({feature_of("holes", FeatureKind::hole_count, 0)});
     recipe.locate.orientation = OrientationRule::symmetric;
     const Picture<Gray8> picture = picture_of({100, 80}, {{shapes::disc(25), 50, 40}}, back_light(), 1005);
     const Picture<Rgb888> drawn = explain(picture, recipe, gauged(picture, recipe));
@@ -218,7 +218,7 @@ TEST(Explain, FramesWhatWasLeftOut) {
                                                {rectangle(120, 30), 80, 100, 0},
                                                {rectangle(20, 15), 80, 140, 0}},
                                               back_light(), 1006);
-    Recipe recipe = recipe_of({feature_of("holes", FeatureKind::hole_count, 0)});
+    Recipe recipe = recipe_with({feature_of("holes", FeatureKind::hole_count, 0)});
     recipe.locate.area_max = 2500;
     recipe.locate.area_min = 500;
     const std::vector<PartResult> parts = gauged(picture, recipe);
@@ -239,8 +239,8 @@ TEST(Explain, FramesWhatWasLeftOut) {
 
 TEST(Explain, WritesWhyThereIsNoPartIntoThePicture) {
     const Picture<Gray8> picture = bar();
-    const Picture<Rgb888> drawn =
-        explain(picture, recipe_of({}), {}, {}, "no part found: the picture may be empty; is the light on?");
+    const Picture<Rgb888> drawn = explain(picture, recipe_with({}), {}, {},
+                                          "no part found: the picture may be empty; is the light on?");
     EXPECT_TRUE(shows(drawn, "no part found: the picture may be empty", colour_unmeasured));
     Picture<Rgb888> corner({300, 20});
     for (int y = 0; y < 20; ++y)
@@ -248,7 +248,7 @@ TEST(Explain, WritesWhyThereIsNoPartIntoThePicture) {
     EXPECT_TRUE(shows(corner, "no part found: the picture may be empty", colour_unmeasured));
     // On two lines where it is too long for one: 400 pixels are 64 characters.
     const std::string words = "word word word word word word word word word word word word";
-    EXPECT_TRUE(shows(explain(picture, recipe_of({}), {}, {}, words + " word word"), words + " word\nword",
+    EXPECT_TRUE(shows(explain(picture, recipe_with({}), {}, {}, words + " word word"), words + " word\nword",
                       colour_unmeasured));
 }
 
@@ -260,7 +260,7 @@ TEST(Explain, LeavesTheValuesThatAreOkToTheirLinesInACrowd) {
     Feature width = feature_of("height_of_part", FeatureKind::width, 30);
     width.from = at(0, -20);
     width.to = at(0, 20);
-    Recipe recipe = recipe_of({width});
+    Recipe recipe = recipe_with({width});
     recipe.locate.area_min = 500;
     const std::vector<PartResult> parts = gauged(picture, recipe);
     ASSERT_EQ(parts.size(), 60u);
