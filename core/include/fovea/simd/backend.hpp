@@ -28,6 +28,13 @@ namespace simd {
 /// Pixels in one vector.
 inline constexpr int lanes = FOVEA_BYTES;
 
+/// Whether one instruction loads a vector from any address; elsewhere a word is put together of its bytes.
+#if FOVEA_BYTES == 4 && (defined(__riscv) || (defined(__arm__) && !defined(__ARM_FEATURE_UNALIGNED)))
+inline constexpr bool loads_anywhere = false;
+#else
+inline constexpr bool loads_anywhere = true;
+#endif
+
 /// The same bits as another type of the same size.
 template <class To, class From>
 [[gnu::always_inline]] inline To bits_as(From from) {

@@ -23,8 +23,9 @@ inline void halve_row(const Gray8* upper, const Gray8* lower, int width, Gray8* 
         return simd::shift_right(plus(sum, simd::all_words(2)), 2);
     };
     int x = 0;
-    for (; x + simd::lanes <= width; x += simd::lanes)
-        simd::narrowed(quarter(x), quarter(x + simd::half_lanes)).store(dst + x);
+    if constexpr (simd::loads_anywhere)
+        for (; x + simd::lanes <= width; x += simd::lanes)
+            simd::narrowed(quarter(x), quarter(x + simd::half_lanes)).store(dst + x);
     for (; x < width; ++x)
         dst[x] =
             static_cast<Gray8>((upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1] + 2) >> 2);
