@@ -545,8 +545,11 @@ def binary(folder):
 def target_binary(folder):
     chip = "arm-none-eabi-g++ -mthumb -mcpu="
     yield from objects(folder, [chip + "cortex-m0", chip + "cortex-m4", chip + "cortex-m4 -mfloat-abi=hard",
-                                chip + "cortex-m55 -mfloat-abi=hard", "aarch64-linux-gnu-g++", "arm-linux-gnueabihf-g++",
-                                "riscv64-linux-gnu-g++"])
+                                chip + "cortex-m55 -mfloat-abi=hard"])
+
+
+def board_binary(folder):
+    yield from objects(folder, ["aarch64-linux-gnu-g++", "arm-linux-gnueabihf-g++", "riscv64-linux-gnu-g++"])
 
 
 # What makes a program of the microbit, but for its own file and the arithmetic behind it.
@@ -714,6 +717,7 @@ def target_new_board(folder):
 
 
 target_alarms = [target_binary, target_chip, target_pins, target_watchdog, target_call_depth, target_firmware, target_new_board]
+board_alarms = [board_binary]
 
 
 # ---- All of them --------------------------------------------------------------------------
@@ -736,11 +740,14 @@ def ring(function, folder):
 
 def main():
     names = sys.argv[1:]
-    chosen = [function for function in [*alarms, *target_alarms] if function.__name__ in names]
-    if names in ([], ["host"], ["target"]):
-        chosen = target_alarms if names == ["target"] else alarms
-    elif len(chosen) != len(names):
-        sys.exit(f"alarms: there are {', '.join(function.__name__ for function in [*alarms, *target_alarms])}")
+    parts = {"host": alarms, "target": target_alarms, "board": board_alarms}
+    every = [function for part in parts.values() for function in part]
+    if len(names) < 2 and (names or ["host"])[0] in parts:
+        chosen = parts[(names or ["host"])[0]]
+    else:
+        chosen = [function for function in every if function.__name__ in names]
+        if len(chosen) != len(names):
+            sys.exit(f"alarms: there are {', '.join(function.__name__ for function in every)}")
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         folders = [Path(folder) / function.__name__ for function in chosen]
         for place in folders:
