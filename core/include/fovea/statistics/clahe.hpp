@@ -121,6 +121,7 @@ inline void clahe_table(std::uint32_t* counts, std::uint32_t area, int clip, Gra
 }  // namespace detail
 
 inline namespace FOVEA_ISA {
+
 inline Status clahe(ImageView<const Gray8> src, Size tiles, int clip, Span<std::uint8_t> scratch,
                     ImageView<Gray8> dst) {
     if (src.empty()) return Status::empty_image;

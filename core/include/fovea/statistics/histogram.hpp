@@ -3,6 +3,7 @@
 // Histogram of an 8-bit image, and the thresholds that follow from it: quantiles and Otsu's. Book sec. 2.5.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <fovea/base/arena.hpp>
@@ -13,6 +14,7 @@
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/count_bytes.hpp>
+#include <fovea/simd/isa.hpp>
 
 namespace fovea {
 
@@ -46,7 +48,7 @@ public:
     /// Adds the pixels of a row.
     constexpr void add_row(const Gray8* row, int width) {
         int x = 0;
-#if defined(__ARM_FEATURE_MVE)
+#if FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
         if constexpr (Tables == 4)
             if (!__builtin_is_constant_evaluated()) x = simd::count_bytes(row, width, counts_);
 #endif
