@@ -19,7 +19,7 @@ namespace simd {
 
 inline constexpr bool counts_four_bytes = true;
 
-/// Counts the bytes of a row and returns how many it has done; the rest is less than four.
+/// Counts the bytes of a row and returns how many it has done; the rest is less than four. Elsewhere none.
 inline int count_bytes(const std::uint8_t* row, int width, std::uint32_t (&tables)[4][256]) {
     const uint32x4_t own = vmulq_n_u32(vidupq_n_u32(0, 1), 256);
     std::uint32_t* const counts = tables[0];
@@ -35,6 +35,10 @@ inline int count_bytes(const std::uint8_t* row, int width, std::uint32_t (&table
 #else
 
 inline constexpr bool counts_four_bytes = false;
+
+inline int count_bytes(const std::uint8_t* /*row*/, int /*width*/, std::uint32_t (&/*tables*/)[4][256]) {
+    return 0;
+}
 
 #endif
 

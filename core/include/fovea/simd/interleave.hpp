@@ -239,9 +239,9 @@ using InterleavePiece = uint8x16_t;
 using InterleavePiece = uint8x16_t;
 
 /// Where the first bytes of 16 pairs or triples lie.
-template <int Bytes>
+template <int Size>
 [[gnu::always_inline]] inline uint8x16_t each() {
-    return vmulq_n_u8(vidupq_n_u8(0, 1), Bytes);
+    return vmulq_n_u8(vidupq_n_u8(0, 1), Size);
 }
 
 [[gnu::always_inline]] inline void deal_pairs(const std::uint8_t* from, InterleavePiece (&part)[2]) {

@@ -95,7 +95,7 @@ struct Words {
     /// lanes numbers of 16 bits, or the first count of them and zeros behind.
     [[gnu::always_inline]] static Words load(const std::uint16_t* from) {
 #if FOVEA_BYTES == 16 && defined(__ARM_FEATURE_MVE)
-        // By places: the instruction for pairs wants an address that is a multiple of 4.
+        // By places, each aligned as its type: Helium's loads of pairs may want more.
         const uint16x8_t each_second = vidupq_n_u16(0, 2);
         return {bits_as<RawWords>(vldrhq_gather_shifted_offset_u16(from, each_second)),
                 bits_as<RawWords>(vldrhq_gather_shifted_offset_u16(from + 1, each_second))};

@@ -14,7 +14,6 @@
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/simd/count_bytes.hpp>
-#include <fovea/simd/isa.hpp>
 
 namespace fovea {
 
@@ -48,10 +47,8 @@ public:
     /// Adds the pixels of a row.
     constexpr void add_row(const Gray8* row, int width) {
         int x = 0;
-#if FOVEA_BYTES >= 16 && defined(__ARM_FEATURE_MVE)
-        if constexpr (Tables == 4)
+        if constexpr (Tables == 4 && simd::counts_four_bytes)
             if (!__builtin_is_constant_evaluated()) x = simd::count_bytes(row, width, counts_);
-#endif
         for (; x + 8 <= width; x += 8) {
             add_four(row + x);
             add_four(row + x + 4);
