@@ -11,7 +11,7 @@
 namespace fovea::test {
 namespace {
 
-constexpr int last_status = static_cast<int>(Status::irregular);
+constexpr int last_status = static_cast<int>(Status::device_lost);
 
 TEST(Describe, HasAPhraseOfItsOwnForEveryStatus) {
     std::set<std::string> phrases;

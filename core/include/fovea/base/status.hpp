@@ -30,6 +30,9 @@ enum class [[nodiscard]] Status : std::uint8_t{
     unsupported,        ///< a valid format or variant that this library does not read
     io_error,           ///< the system refused; ports tell more
     irregular,          ///< there is something, of another shape than what is measured
+    timeout,            ///< nothing came within the patience given: ask again
+    no_signal,          ///< the device is there and its sensor is silent
+    device_lost,        ///< the device is gone: open it again
 };
 
 /// One lower-case phrase for messages, without a full stop.
@@ -53,6 +56,9 @@ constexpr const char* describe(Status status) {
         case Status::unsupported: return "this variant of the format is not supported";
         case Status::io_error: return "the system refused the operation";
         case Status::irregular: return "not of the shape that is measured";
+        case Status::timeout: return "nothing came in time";
+        case Status::no_signal: return "the sensor gives no signal";
+        case Status::device_lost: return "the device is gone";
     }
     return "unknown status";
 }
