@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// FailingSystem: the calls of the Linux ports with one of them failing, and an account of what was not given back.
+// FailingSystem: the calls of the Linux ports with one of them failing, and an account of what was not given
+// back.
 #pragma once
 
 #include <cerrno>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
-#include <vector>
 
 #include <fovea/linux/kernel.hpp>
 
@@ -23,7 +24,8 @@ struct SystemScript {
     bool for_ever = false;
 
     int calls = 0;
-    std::vector<std::string> names;
+    /// The call that failed first.
+    std::string failed;
     std::set<int> open_files;
     std::map<std::uint8_t*, std::size_t> mappings;
     /// Files closed and memory unmapped that were not open or mapped: a second time, or never.
@@ -87,7 +89,9 @@ public:
     int about(const char* path, struct stat& what) {
         return fails("about") ? -script_->error : inner_.about(path, what);
     }
-    int about(int file, struct stat& what) { return fails("about") ? -script_->error : inner_.about(file, what); }
+    int about(int file, struct stat& what) {
+        return fails("about") ? -script_->error : inner_.about(file, what);
+    }
     std::ptrdiff_t read_link(const char* path, Span<char> into) {
         return fails("read_link") ? -script_->error : inner_.read_link(path, into);
     }
@@ -100,7 +104,8 @@ public:
         if (file >= 0) script_->open_files.insert(file);
         return file;
     }
-    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to, unsigned to_bytes) {
+    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to,
+                           unsigned to_bytes) {
         return fails("send_to") ? -script_->error : inner_.send_to(file, bytes, to, to_bytes);
     }
     /// Never fails, and is not counted.
@@ -109,24 +114,25 @@ public:
 private:
     bool fails(const char* name) {
         ++script_->calls;
-        script_->names.push_back(name);
-        if (script_->fail_at == 0) return false;
-        return script_->for_ever ? script_->calls >= script_->fail_at : script_->calls == script_->fail_at;
+        if (script_->fail_at == 0 || script_->calls < script_->fail_at) return false;
+        if (script_->calls == script_->fail_at) script_->failed = name;
+        return script_->for_ever || script_->calls == script_->fail_at;
     }
 
     SystemScript* script_;
     Inner inner_;
 };
 
-/// Runs a scenario with its n-th call failing, for every n and every errno given, until a run has fewer calls than n.
-/// scenario(FailingSystem<Inner>) does its work and lets all die that it made; after(script) is asked whether the
-/// run was as it must be. The number of runs.
+/// Runs a scenario with its n-th call failing, for every n and every errno given, until a run has fewer calls
+/// than n. scenario(FailingSystem<Inner>) does its work and lets all die that it made; after(script) is asked
+/// whether the run was as it must be. The number of runs.
 template <class Inner, class Scenario, class After>
 int sweep(Inner inner, std::initializer_list<int> errors, Scenario scenario, After after) {
     int runs = 0;
     for (const bool for_ever : {false, true})
         for (const int error : errors)
-            for (int n = 1;; ++n) {
+            // A signal that never ends is none.
+            for (int n = 1; !(for_ever && error == EINTR); ++n) {
                 SystemScript script;
                 script.fail_at = n;
                 script.error = error;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Kernel: the calls into a Linux kernel that the ports make, all in one place, so that a test can stand in it.
+// Kernel: the calls into a Linux kernel that the ports make, all in one place, so that a test can stand in
+// it.
 #pragma once
 
 #include <fcntl.h>
@@ -22,8 +23,8 @@
 
 namespace fovea::linux_port {
 
-/// What a port calls, as a system: a handle that is cheap to copy. Every call answers what the kernel answers,
-/// or the negative errno; nothing is tried again here, not even what a signal interrupted.
+/// What a port calls, as a system: a handle that is cheap to copy. Every call answers what the kernel
+/// answers, or the negative errno; nothing is tried again here, not even what a signal interrupted.
 ///
 /// A port takes its system as a template parameter and by value. A test gives it one that lets the n-th call
 /// fail: tests/support/failing_system.hpp.
@@ -40,7 +41,8 @@ public:
     int ioctl(int file, unsigned long request, void* argument) {
         return answer(::ioctl(file, request, argument));
     }
-    /// How many of the files have something to tell; 0 when the patience is over, which is without end below 0.
+    /// How many of the files have something to tell; 0 when the patience is over, which is without end below
+    /// 0.
     int poll(Span<pollfd> files, std::int64_t patience_us) {
         const timespec patience = {static_cast<time_t>(patience_us / 1000000),
                                    static_cast<long>(patience_us % 1000000 * 1000)};
@@ -72,7 +74,8 @@ public:
     }
 
     int socket(int family, int type) { return answer(::socket(family, type, 0)); }
-    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to, unsigned to_bytes) {
+    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to,
+                           unsigned to_bytes) {
         return answer(::sendto(file, bytes.data(), static_cast<std::size_t>(bytes.size()), MSG_NOSIGNAL,
                                reinterpret_cast<const sockaddr*>(&to), to_bytes));
     }
@@ -91,8 +94,8 @@ private:
     }
 };
 
-/// Makes a call again for as long as signals interrupt it. Not for calls that wait: who waits looks first what
-/// the signal wants.
+/// Makes a call again for as long as signals interrupt it. Not for calls that wait: who waits looks first
+/// what the signal wants.
 template <class Call>
 auto uninterrupted(Call call) {
     auto got = call();
