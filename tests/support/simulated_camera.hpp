@@ -60,6 +60,9 @@ struct SimulatedCamera {
     bool signal = true;
     int timings_width = 64;
     int timings_set = 64;
+    /// What of the frame is filled after a format was set; 0 where the driver has no such rectangle.
+    int compose_width = 0;
+    bool compose_can_be_set = true;
     /// Requests that are refused once, with that errno.
     std::map<unsigned long, int> refused_once;
 
@@ -187,6 +190,11 @@ public:
                 if (!camera_->has_timings) return -ENOTTY;
                 static_cast<v4l2_dv_timings*>(argument)->bt.width =
                     static_cast<std::uint32_t>(camera_->timings_set);
+                return 0;
+            case VIDIOC_G_SELECTION: return selection(*static_cast<v4l2_selection*>(argument));
+            case VIDIOC_S_SELECTION:
+                if (!camera_->compose_can_be_set) return -EBUSY;
+                camera_->compose_width = static_cast<int>(static_cast<v4l2_selection*>(argument)->r.width);
                 return 0;
             case VIDIOC_S_DV_TIMINGS:
                 camera_->timings_set = static_cast<int>(static_cast<v4l2_dv_timings*>(argument)->bt.width);
@@ -325,6 +333,15 @@ private:
             pixels.bytesperline = stride;
             pixels.sizeimage = camera_->plane_bytes(0);
         }
+        return 0;
+    }
+    int selection(v4l2_selection& answer) {
+        const bool compose =
+            answer.target == V4L2_SEL_TGT_COMPOSE || answer.target == V4L2_SEL_TGT_COMPOSE_DEFAULT;
+        if (camera_->compose_width == 0 || !compose) return -ENOTTY;
+        const bool whole = answer.target == V4L2_SEL_TGT_COMPOSE_DEFAULT;
+        answer.r = {0, 0, static_cast<std::uint32_t>(whole ? camera_->mode.width : camera_->compose_width),
+                    static_cast<std::uint32_t>(camera_->mode.height)};
         return 0;
     }
     int rate(v4l2_streamparm& answer) {

@@ -317,6 +317,19 @@ TEST(V4l2Camera, RefusesAFormatThatIsNotTheOneAskedFor) {
     EXPECT_EQ(camera.configure(V4L2_PIX_FMT_GREY, {0, 48}, 0), Status::bad_argument);
 }
 
+TEST(V4l2Camera, LetsTheDriverFillTheWholeFrame) {
+    SimulatedCamera device;
+    device.compose_width = 32;  // as another program left it
+    Camera camera{SimulatedVideo(device)};
+    ASSERT_EQ(camera.open("/dev/video0"), Status::ok);
+    EXPECT_EQ(camera.configure(V4L2_PIX_FMT_GREY, {64, 48}, 0), Status::ok);
+    EXPECT_EQ(device.compose_width, 64);
+    device.compose_width = 32;
+    device.compose_can_be_set = false;
+    EXPECT_EQ(camera.configure(V4L2_PIX_FMT_GREY, {64, 48}, 0), Status::size_mismatch);
+    EXPECT_STREQ(camera.fault().call, "VIDIOC_S_SELECTION");
+}
+
 TEST(V4l2Camera, WantsTwoBuffers) {
     SimulatedCamera device;
     device.most_buffers = 1;

@@ -26,6 +26,7 @@
 #include <fovea/linux/video_format.hpp>
 #include <fovea/linux/video_layout.hpp>
 #include <fovea/linux/video_modes.hpp>
+#include <fovea/linux/video_selection.hpp>
 #include <fovea/linux/video_signal.hpp>
 
 namespace fovea::linux_port {
@@ -198,24 +199,17 @@ Status V4l2Camera<System>::configure(std::uint32_t code, Size size, std::int32_t
     if (wanted == nullptr || size.empty() || interval_us < 0 || streaming_)
         return unusable(fault_, "VIDIOC_S_FMT", Status::bad_argument,
                         streaming_ ? "the camera is streaming" : "no format, size or rate of a camera");
-    v4l2_format format{};
-    format.type = type_;
-    if (type_ == V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE) {
-        format.fmt.pix_mp.pixelformat = code;
-        format.fmt.pix_mp.width = static_cast<std::uint32_t>(size.width);
-        format.fmt.pix_mp.height = static_cast<std::uint32_t>(size.height);
-        format.fmt.pix_mp.field = V4L2_FIELD_NONE;
-        format.fmt.pix_mp.num_planes = static_cast<std::uint8_t>(wanted->memory_planes);
-    } else {
-        format.fmt.pix.pixelformat = code;
-        format.fmt.pix.width = static_cast<std::uint32_t>(size.width);
-        format.fmt.pix.height = static_cast<std::uint32_t>(size.height);
-        format.fmt.pix.field = V4L2_FIELD_NONE;
-    }
+    v4l2_format format = video_format_request(type_, *wanted, size);
+    const VideoSelection<System> selection(system_, file_);
+    selection.adopt(V4L2_SEL_TGT_CROP_DEFAULT, V4L2_SEL_TGT_CROP);
     if (const int got = call(VIDIOC_S_FMT, format); got < 0) return refused(fault_, "VIDIOC_S_FMT", got);
+    selection.adopt(V4L2_SEL_TGT_COMPOSE_DEFAULT, V4L2_SEL_TGT_COMPOSE);
     if (const Status s = layout_.read(format, *wanted, size); s != Status::ok)
         return unusable(fault_, "VIDIOC_S_FMT", s,
                         "the driver gives another format or size than was asked for");
+    if (!selection.fills(V4L2_SEL_TGT_COMPOSE, size))
+        return unusable(fault_, "VIDIOC_S_SELECTION", Status::size_mismatch,
+                        "the driver fills a part of the frame only");
 
     interval_us_ = 0;
     v4l2_streamparm rate{};

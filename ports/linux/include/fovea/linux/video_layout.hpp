@@ -17,6 +17,25 @@
 
 namespace fovea::linux_port {
 
+/// What to ask of S_FMT: whole frames of a format and a size.
+inline v4l2_format video_format_request(std::uint32_t type, const VideoFormat& wanted, Size size) {
+    v4l2_format format{};
+    format.type = type;
+    const auto fill = [&](auto& pixels) {
+        pixels.pixelformat = wanted.code;
+        pixels.width = static_cast<std::uint32_t>(size.width);
+        pixels.height = static_cast<std::uint32_t>(size.height);
+        pixels.field = V4L2_FIELD_NONE;
+    };
+    if (type == V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE) {
+        fill(format.fmt.pix_mp);
+        format.fmt.pix_mp.num_planes = static_cast<std::uint8_t>(wanted.memory_planes);
+    } else {
+        fill(format.fmt.pix);
+    }
+    return format;
+}
+
 /// The format a driver has settled on, read from its answer.
 struct VideoLayout {
     hal::PixelFormat format = hal::PixelFormat::none;
