@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+//
+// Settings: what the daemon is told by its configuration file. One table of keys makes the parser, the help,
+// the sample file and the manual page.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <fovea/base/list.hpp>
+#include <fovea/hal/pixel_format.hpp>
+#include <fovea/image/geometry.hpp>
+
+#include <daemon/verdict_lines.hpp>
+
+namespace fovea::apps {
+
+/// Text of a bounded length, ended by a zero.
+template <std::size_t Capacity>
+struct Text {
+    char letters[Capacity] = {};
+
+    bool empty() const { return letters[0] == '\0'; }
+    const char* c_str() const { return letters; }
+};
+
+enum class TriggerSource : std::uint8_t { free, line, command };
+
+/// A control of the camera by name.
+struct ControlChoice {
+    Text<64> name;
+    std::int64_t value = 0;
+};
+
+struct Settings {
+    static constexpr int most_controls = 32;
+
+    struct Camera {
+        Text<192> device;
+        Text<192> replay;
+        std::int64_t width = 0;
+        std::int64_t height = 0;
+        hal::PixelFormat format = hal::PixelFormat::none;
+        std::int64_t rate_per_s = 10;
+        std::int64_t buffers = 4;
+        bool every_frame = false;
+    } camera;
+    List<ControlChoice, most_controls> controls;
+    struct Trigger {
+        TriggerSource source = TriggerSource::free;
+        Text<64> line;
+        std::int64_t debounce_us = 0;
+        std::int64_t timeout_ms = 1000;
+    } trigger;
+    struct Lines {
+        Text<64> chip;
+        Text<64> ready;
+        Text<64> busy;
+        Text<64> valid;
+        Text<64> ok;
+        Text<64> not_ok;
+        Text<64> alarm;
+        bool active_low = false;
+        LineMode mode = LineMode::hold;
+        std::int64_t pulse_ms = 50;
+        bool error_is_not_ok = false;
+    } lines;
+    struct Serial {
+        Text<192> device;
+        std::int64_t baud = 115200;
+        bool rs485 = false;
+        bool commands = true;
+        bool silent = false;
+        Text<257> results;
+    } serial;
+    struct Jobs {
+        Text<192> folder;
+        Text<64> start;
+    } jobs;
+    struct Results {
+        bool json = true;
+    } results;
+    struct Failures {
+        Text<192> folder;
+        std::int64_t megabytes = 100;
+        std::int64_t pictures = 1000;
+    } failures;
+    struct Quality {
+        std::int64_t dark_percent = 98;
+        std::int64_t saturated_percent = 50;
+        std::int64_t contrast = 8;
+    } quality;
+};
+
+enum class SettingType : std::uint8_t { text, integer, boolean, choice };
+
+/// A value on its way from text to settings: a choice as its number in the list.
+struct SettingValue {
+    std::int64_t number = 0;
+    Span<const char> text;
+};
+
+/// A key of the file.
+struct SettingKey {
+    using Load = void (*)(Settings& settings, const SettingValue& value);
+
+    const char* table;
+    const char* name;
+    SettingType type;
+    const char* otherwise;  ///< what stands where the key is absent, as in a file
+    const char* text;       ///< one line of help
+    Load load;
+    std::int64_t low = 0;  ///< of an integer; of a text its most letters in high
+    std::int64_t high = 0;
+    const char* choices = "";
+};
+
+/// All keys, table by table. A table whose name stands in [[ ]] may come more than once.
+Span<const SettingKey> setting_keys();
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+template <std::size_t Capacity>
+void load_text(Text<Capacity>& into, const SettingValue& value) {
+    into = {};
+    for (std::ptrdiff_t k = 0; k < value.text.size() && k + 1 < std::ptrdiff_t{Capacity}; ++k)
+        into.letters[k] = value.text[k];
+}
+template <auto Part, auto Member>
+void set_text(Settings& settings, const SettingValue& value) {
+    load_text((settings.*Part).*Member, value);
+}
+template <auto Part, auto Member>
+void set_number(Settings& settings, const SettingValue& value) {
+    auto& member = (settings.*Part).*Member;
+    member = static_cast<std::remove_reference_t<decltype(member)>>(value.number);
+}
+
+}  // namespace detail
+
+inline Span<const SettingKey> setting_keys() {
+    using namespace detail;
+    using S = Settings;
+    constexpr SettingType text = SettingType::text;
+    constexpr SettingType integer = SettingType::integer;
+    constexpr SettingType boolean = SettingType::boolean;
+    constexpr SettingType choice = SettingType::choice;
+    static constexpr SettingKey keys[] = {
+        {"", "format", integer, "1", "version of this file format", [](Settings&, const SettingValue&) {}, 1,
+         1},
+
+        {"camera", "device", text, "\"auto\"",
+         "the camera: \"auto\", \"/dev/video0\", \"usb:046d:0825\" with \":serial\" behind it, or "
+         "\"path:...\"",
+         set_text<&S::camera, &S::Camera::device>, 0, 191},
+        {"camera", "replay", text, "\"\"", "a picture, a folder or a FIFO to judge in place of a camera",
+         set_text<&S::camera, &S::Camera::replay>, 0, 191},
+        {"camera", "width", integer, "0",
+         "width of the frames in pixels; 0 for the largest that is fast enough",
+         set_number<&S::camera, &S::Camera::width>, 0, 32767},
+        {"camera", "height", integer, "0", "height of the frames in pixels; 0 as for the width",
+         set_number<&S::camera, &S::Camera::height>, 0, 32767},
+        {"camera", "pixel_format", choice, "\"any\"", "how the camera packs its pixels",
+         set_number<&S::camera, &S::Camera::format>, 0, 0,
+         "any|gray8|gray10|gray12|gray16|yuyv|uyvy|nv12|rgb24|bgr24|rgb565|bayer-rggb|bayer-grbg|bayer-gbrg|"
+         "bayer-bggr|mjpeg"},
+        {"camera", "rate_per_s", integer, "10", "frames a second that are wanted at least",
+         set_number<&S::camera, &S::Camera::rate_per_s>, 1, 10000},
+        {"camera", "buffers", integer, "4", "frames that the driver holds",
+         set_number<&S::camera, &S::Camera::buffers>, 2, 16},
+        {"camera", "every_frame", boolean, "false", "judge every frame in its order, instead of the newest",
+         set_number<&S::camera, &S::Camera::every_frame>},
+
+        {"[[control]]", "name", text, "",
+         "a control of the camera, as v4l2-ctl lists it: \"exposure_time_absolute\"",
+         [](Settings& s, const SettingValue& v) { load_text(s.controls[s.controls.size() - 1].name, v); }, 1,
+         63},
+        {"[[control]]", "value", integer, "", "what it is set to; automatic modes are set first",
+         [](Settings& s, const SettingValue& v) { s.controls[s.controls.size() - 1].value = v.number; },
+         -99999999, 99999999},
+
+        {"trigger", "source", choice, "\"free\"",
+         "what starts a judgement: nothing but the camera, an edge on a line, or the command TRG",
+         set_number<&S::trigger, &S::Trigger::source>, 0, 0, "free|line|command"},
+        {"trigger", "line", text, "\"\"", "of \"line\": its name or its number on the chip of [lines]",
+         set_text<&S::trigger, &S::Trigger::line>, 0, 63},
+        {"trigger", "debounce_us", integer, "0", "of \"line\": how long it must stand before it counts",
+         set_number<&S::trigger, &S::Trigger::debounce_us>, 0, 1000000},
+        {"trigger", "timeout_ms", integer, "1000",
+         "how long a frame may take to come before the answer is ERROR",
+         set_number<&S::trigger, &S::Trigger::timeout_ms>, 10, 60000},
+
+        {"lines", "chip", text, "\"\"", "the GPIO chip: \"/dev/gpiochip0\" or its label; \"\" for no lines",
+         set_text<&S::lines, &S::Lines::chip>, 0, 63},
+        {"lines", "ready", text, "\"\"", "line that says a trigger would be answered: its name or number",
+         set_text<&S::lines, &S::Lines::ready>, 0, 63},
+        {"lines", "busy", text, "\"\"", "line that says one is being answered",
+         set_text<&S::lines, &S::Lines::busy>, 0, 63},
+        {"lines", "valid", text, "\"\"", "line that says ok and ng may be read",
+         set_text<&S::lines, &S::Lines::valid>, 0, 63},
+        {"lines", "ok", text, "\"\"", "line of the verdict OK", set_text<&S::lines, &S::Lines::ok>, 0, 63},
+        {"lines", "ng", text, "\"\"", "line of the verdict not OK", set_text<&S::lines, &S::Lines::not_ok>, 0,
+         63},
+        {"lines", "alarm", text, "\"\"", "line that says a person must look after something",
+         set_text<&S::lines, &S::Lines::alarm>, 0, 63},
+        {"lines", "active_low", boolean, "false", "active is the low level, for all of them",
+         set_number<&S::lines, &S::Lines::active_low>},
+        {"lines", "mode", choice, "\"hold\"", "an answer stands until the next trigger, or for a pulse",
+         set_number<&S::lines, &S::Lines::mode>, 0, 0, "hold|pulse"},
+        {"lines", "pulse_ms", integer, "50", "of \"pulse\": how long",
+         set_number<&S::lines, &S::Lines::pulse_ms>, 1, 10000},
+        {"lines", "error_is_ng", boolean, "false", "show what could not be judged as not OK",
+         set_number<&S::lines, &S::Lines::error_is_not_ok>},
+
+        {"serial", "device", text, "\"\"",
+         "the serial port: \"/dev/ttyUSB0\", \"usb:0403:6001\" with \":serial\" behind it; \"\" for none",
+         set_text<&S::serial, &S::Serial::device>, 0, 191},
+        {"serial", "baud", integer, "115200", "bits a second", set_number<&S::serial, &S::Serial::baud>, 50,
+         4000000},
+        {"serial", "rs485", boolean, "false", "let the driver switch the direction of an RS-485 line",
+         set_number<&S::serial, &S::Serial::rs485>},
+        {"serial", "commands", boolean, "true", "obey commands that arrive",
+         set_number<&S::serial, &S::Serial::commands>},
+        {"serial", "silent", boolean, "false", "reply only to commands that ask",
+         set_number<&S::serial, &S::Serial::silent>},
+        {"serial", "results", text, "\"plain\"",
+         "what a result is sent as: plain, pass-fail, stx-etx, csv, json, a template, or \"\" for nothing",
+         set_text<&S::serial, &S::Serial::results>, 0, 256},
+
+        {"jobs", "folder", text, "\"jobs\"",
+         "folder of the recipes, each NAME.toml; beside this file if not absolute",
+         set_text<&S::jobs, &S::Jobs::folder>, 1, 191},
+        {"jobs", "start", text, "\"\"", "the job to begin with; \"\" for the first by name",
+         set_text<&S::jobs, &S::Jobs::start>, 0, 63},
+
+        {"results", "json", boolean, "true", "print every result as a line of JSON",
+         set_number<&S::results, &S::Results::json>},
+
+        {"failures", "folder", text, "\"\"", "folder for pictures of what was not OK; \"\" to keep none",
+         set_text<&S::failures, &S::Failures::folder>, 0, 191},
+        {"failures", "megabytes", integer, "100", "how much they may take up, in MB",
+         set_number<&S::failures, &S::Failures::megabytes>, 1, 1000000},
+        {"failures", "pictures", integer, "1000", "how many are kept at most",
+         set_number<&S::failures, &S::Failures::pictures>, 1, 1000000},
+
+        {"quality", "dark_percent", integer, "98",
+         "no verdict if so much of a picture is darker than level 16",
+         set_number<&S::quality, &S::Quality::dark_percent>, 1, 101},
+        {"quality", "saturated_percent", integer, "50",
+         "no verdict if so much of it is brighter than level 250; 101 never",
+         set_number<&S::quality, &S::Quality::saturated_percent>, 1, 101},
+        {"quality", "contrast", integer, "8", "no verdict if its brightest and darkest levels differ by less",
+         set_number<&S::quality, &S::Quality::contrast>, 0, 255},
+    };
+    static_cast<void>(text), static_cast<void>(integer), static_cast<void>(boolean),
+        static_cast<void>(choice);
+    return {keys, static_cast<std::ptrdiff_t>(sizeof keys / sizeof keys[0])};
+}
+
+}  // namespace fovea::apps
