@@ -27,7 +27,7 @@ struct InspectedValue {
 };
 
 struct Inspection {
-    static constexpr int most_values = 64;
+    static constexpr int most_values = 32;
 
     /// Of the trigger, from 1.
     std::uint64_t number = 0;
