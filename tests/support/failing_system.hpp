@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// FailingSystem: the calls of the Linux ports with one of them failing, and an account of what was not given back.
+// FailingSystem: the calls of the Linux ports with one of them failing, and an account of what was not given
+// back.
 #pragma once
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
@@ -51,6 +54,8 @@ public:
         const int got = inner_.close(file);
         return failing ? -script_->error : got;
     }
+    int stop_waiting(int file) { return fails("stop_waiting") ? -script_->error : inner_.stop_waiting(file); }
+    int lock(int file) { return fails("lock") ? -script_->error : inner_.lock(file); }
     std::ptrdiff_t read(int file, Span<std::uint8_t> into) {
         return fails("read") ? -script_->error : inner_.read(file, into);
     }
@@ -87,7 +92,9 @@ public:
     int about(const char* path, struct stat& what) {
         return fails("about") ? -script_->error : inner_.about(path, what);
     }
-    int about(int file, struct stat& what) { return fails("about") ? -script_->error : inner_.about(file, what); }
+    int about(int file, struct stat& what) {
+        return fails("about") ? -script_->error : inner_.about(file, what);
+    }
     std::ptrdiff_t read_link(const char* path, Span<char> into) {
         return fails("read_link") ? -script_->error : inner_.read_link(path, into);
     }
@@ -100,10 +107,12 @@ public:
         if (file >= 0) script_->open_files.insert(file);
         return file;
     }
-    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to, unsigned to_bytes) {
+    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to,
+                           unsigned to_bytes) {
         return fails("send_to") ? -script_->error : inner_.send_to(file, bytes, to, to_bytes);
     }
-    /// Never fails, and is not counted.
+    /// These two never fail, and are not counted.
+    int process_id() { return inner_.process_id(); }
     std::int64_t monotonic_us() { return inner_.monotonic_us(); }
 
 private:
@@ -118,15 +127,16 @@ private:
     Inner inner_;
 };
 
-/// Runs a scenario with its n-th call failing, for every n and every errno given, until a run has fewer calls than n.
-/// scenario(FailingSystem<Inner>) does its work and lets all die that it made; after(script) is asked whether the
-/// run was as it must be. The number of runs.
+/// Runs a scenario with its n-th call failing, for every n and every errno given, until a run has fewer calls
+/// than n. scenario(FailingSystem<Inner>) does its work and lets all die that it made; after(script) is asked
+/// whether the run was as it must be. No signal interrupts for ever, so EINTR comes once a run. The number of
+/// runs.
 template <class Inner, class Scenario, class After>
 int sweep(Inner inner, std::initializer_list<int> errors, Scenario scenario, After after) {
     int runs = 0;
     for (const bool for_ever : {false, true})
         for (const int error : errors)
-            for (int n = 1;; ++n) {
+            for (int n = 1; !(for_ever && error == EINTR); ++n) {
                 SystemScript script;
                 script.fail_at = n;
                 script.error = error;

@@ -29,7 +29,8 @@ inline const char* reason(const Fault& fault) {
 }
 
 /// What to try when that call answers that errno; empty where there is nothing better to say than the reason.
-/// The same errno means different things in different calls: "no space left on device" of a camera is about USB.
+/// The same errno means different things in different calls: "no space left on device" of a camera is about
+/// USB.
 inline const char* advice(const Fault& fault) {
     struct Row {
         const char* call;
@@ -38,25 +39,31 @@ inline const char* advice(const Fault& fault) {
     };
     static constexpr Row rows[] = {
         {"VIDIOC_STREAMON", ENOSPC,
-         "the USB bus has no bandwidth left: use MJPEG, a smaller picture or a lower rate, or another USB controller"},
+         "the USB bus has no bandwidth left: use MJPEG, a smaller picture or a lower rate, or another USB "
+         "controller"},
         {"VIDIOC_STREAMON", EINVAL, "the driver has no buffers or the link to the sensor is not set up"},
-        {"VIDIOC_STREAMON", EPIPE, "the formats along the media pipeline do not agree: set them with media-ctl"},
+        {"VIDIOC_STREAMON", EPIPE,
+         "the formats along the media pipeline do not agree: set them with media-ctl"},
         {"VIDIOC_STREAMON", EPROTO, "the camera does not answer: plug it in again, without a hub"},
         {"VIDIOC_S_FMT", EBUSY, "another program is streaming from this camera: end it first"},
         {"VIDIOC_REQBUFS", EBUSY, "another program is streaming from this camera: end it first"},
-        {"VIDIOC_REQBUFS", ENOMEM, "there is no memory for the buffers: use a smaller picture, or more CMA memory"},
+        {"VIDIOC_REQBUFS", ENOMEM,
+         "there is no memory for the buffers: use a smaller picture, or more CMA memory"},
         {"VIDIOC_REQBUFS", EINVAL, "the driver lends no memory-mapped buffers"},
         {"VIDIOC_DQBUF", EIO, "the stream is broken: it is started again"},
         {"VIDIOC_QUERYCAP", ENOTTY, "this is not a camera: fovea probe lists those that are there"},
+        {"flock", EAGAIN, "another program has this port for itself: end it first"},
         {"TIOCEXCL", EBUSY, "another program has this port for itself: end it first"},
         {"TCGETS2", ENOTTY, "this is not a serial port"},
         {"TCGETS2", EIO, "there is no hardware behind this port"},
         {"GPIO_GET_LINE", EBUSY, "the line is taken: gpioinfo says by whom"},
         {"GPIO_GET_LINE", EINVAL, "the line cannot be what is asked of it, or the chip has no such line"},
+        {"GPIO_GET_LINE", ENOTTY, "this kernel is older than 5.10, where lines are asked for another way"},
         {"GPIO_GET_CHIPINFO", ENOTTY, "this is not a GPIO chip: they are /dev/gpiochip*"},
         {"open", EBUSY, "another program holds it: end it first"},
         {"open", ENOENT, "it is not there: plug it in, or correct its name"},
-        {"open", EACCES, "this user has no right to it: add the user to the group of the file (video, dialout, gpio)"},
+        {"open", EACCES,
+         "this user has no right to it: add the user to the group of the file (video, dialout, gpio)"},
         {"open", EPERM, "the sandbox of the service forbids it: see DeviceAllow= of its unit"},
         {"open", EMFILE, "too many files are open: raise the limit (ulimit -n)"},
         {"", ENODEV, "the device is gone: it is looked for again"},

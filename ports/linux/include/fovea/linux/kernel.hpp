@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Kernel: the calls into a Linux kernel that the ports make, all in one place, so that a test can stand in it.
+// Kernel: the calls into a Linux kernel that the ports make, all in one place, so that a test can stand in
+// it.
 #pragma once
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -14,7 +16,9 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
@@ -22,8 +26,8 @@
 
 namespace fovea::linux_port {
 
-/// What a port calls, as a system: a handle that is cheap to copy. Every call answers what the kernel answers,
-/// or the negative errno; nothing is tried again here, not even what a signal interrupted.
+/// What a port calls, as a system: a handle that is cheap to copy. Every call answers what the kernel
+/// answers, or the negative errno; nothing is tried again here, not even what a signal interrupted.
 ///
 /// A port takes its system as a template parameter and by value. A test gives it one that lets the n-th call
 /// fail: tests/support/failing_system.hpp.
@@ -31,6 +35,10 @@ class Kernel {
 public:
     int open(const char* path, int flags, unsigned mode = 0) { return answer(::open(path, flags, mode)); }
     int close(int file) { return answer(::close(file)); }
+    /// What follows on this file does not wait.
+    int stop_waiting(int file) { return answer(::fcntl(file, F_SETFL, O_NONBLOCK)); }
+    /// Takes the file for itself among the programs that ask likewise, until it is closed; does not wait.
+    int lock(int file) { return answer(::flock(file, LOCK_EX | LOCK_NB)); }
     std::ptrdiff_t read(int file, Span<std::uint8_t> into) {
         return answer(::read(file, into.data(), static_cast<std::size_t>(into.size())));
     }
@@ -40,8 +48,11 @@ public:
     int ioctl(int file, unsigned long request, void* argument) {
         return answer(::ioctl(file, request, argument));
     }
-    /// How many of the files have something to tell; 0 when the patience is over, which is without end below 0.
+    /// How many of the files have something to tell; 0 when the patience is over, which is without end below
+    /// 0.
     int poll(Span<pollfd> files, std::int64_t patience_us) {
+        // Seconds have 32 bits on some boards: a billion of them are 31 years.
+        patience_us = std::min(patience_us, std::int64_t{1000000000} * 1000000);
         const timespec patience = {static_cast<time_t>(patience_us / 1000000),
                                    static_cast<long>(patience_us % 1000000 * 1000)};
         return answer(::ppoll(files.data(), static_cast<nfds_t>(files.size()),
@@ -72,11 +83,13 @@ public:
     }
 
     int socket(int family, int type) { return answer(::socket(family, type, 0)); }
-    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to, unsigned to_bytes) {
+    std::ptrdiff_t send_to(int file, Span<const std::uint8_t> bytes, const sockaddr_un& to,
+                           unsigned to_bytes) {
         return answer(::sendto(file, bytes.data(), static_cast<std::size_t>(bytes.size()), MSG_NOSIGNAL,
                                reinterpret_cast<const sockaddr*>(&to), to_bytes));
     }
 
+    int process_id() { return ::getpid(); }
     /// Time that only goes forward, as the kernel stamps frames and edges.
     std::int64_t monotonic_us() {
         timespec now{};
@@ -91,8 +104,8 @@ private:
     }
 };
 
-/// Makes a call again for as long as signals interrupt it. Not for calls that wait: who waits looks first what
-/// the signal wants.
+/// Makes a call again for as long as signals interrupt it. Not for calls that wait: who waits looks first
+/// what the signal wants.
 template <class Call>
 auto uninterrupted(Call call) {
     auto got = call();
