@@ -46,7 +46,9 @@ public:
     Span<const std::uint8_t> bytes() const { return {reinterpret_cast<const std::uint8_t*>(bytes_), size_}; }
 
 private:
-    char bytes_[static_cast<std::size_t>(Capacity) + 1] = "";
+    // Not = "": Clang 14 takes one literal for the arrays of all capacities, and clears as many bytes as the
+    // largest has.
+    char bytes_[static_cast<std::size_t>(Capacity) + 1] = {};
     int size_ = 0;
     bool fits_ = true;
 };
