@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -53,6 +54,8 @@ public:
         const int got = inner_.close(file);
         return failing ? -script_->error : got;
     }
+    int stop_waiting(int file) { return fails("stop_waiting") ? -script_->error : inner_.stop_waiting(file); }
+    int lock(int file) { return fails("lock") ? -script_->error : inner_.lock(file); }
     std::ptrdiff_t read(int file, Span<std::uint8_t> into) {
         return fails("read") ? -script_->error : inner_.read(file, into);
     }
@@ -108,7 +111,8 @@ public:
                            unsigned to_bytes) {
         return fails("send_to") ? -script_->error : inner_.send_to(file, bytes, to, to_bytes);
     }
-    /// Never fails, and is not counted.
+    /// These two never fail, and are not counted.
+    int process_id() { return inner_.process_id(); }
     std::int64_t monotonic_us() { return inner_.monotonic_us(); }
 
 private:
@@ -125,7 +129,8 @@ private:
 
 /// Runs a scenario with its n-th call failing, for every n and every errno given, until a run has fewer calls
 /// than n. scenario(FailingSystem<Inner>) does its work and lets all die that it made; after(script) is asked
-/// whether the run was as it must be. The number of runs.
+/// whether the run was as it must be. No signal interrupts for ever, so EINTR comes once a run. The number of
+/// runs.
 template <class Inner, class Scenario, class After>
 int sweep(Inner inner, std::initializer_list<int> errors, Scenario scenario, After after) {
     int runs = 0;

@@ -16,7 +16,8 @@ namespace fovea::hal {
 ///   Result<int> read(Span<std::uint8_t> into)
 ///   Result<int> write(Span<const std::uint8_t> bytes)
 /// read: how many came, 0 where nothing has arrived. write: how many were taken, 0 where there is no room;
-/// the caller keeps the rest. Neither waits. io_error: the device refused; the port says why.
+/// the caller keeps the rest. Neither waits. io_error: the device refused; the port says why. device_lost: it
+/// is gone, with all that was written and not sent yet.
 template <class T>
 using read_call = decltype(std::declval<T&>().read(Span<std::uint8_t>{}));
 template <class T>

@@ -12,7 +12,8 @@ namespace fovea::hal {
 
 /// An output: a verdict, a light.
 ///   Status set(bool active)
-/// The line keeps what it was set to. io_error: the device refused; the port says why.
+/// The line keeps what it was set to. io_error: the device refused; the port says why. device_lost: it is
+/// gone.
 template <class T>
 using set_call = decltype(std::declval<T&>().set(bool{}));
 template <class T>

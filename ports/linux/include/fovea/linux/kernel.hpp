@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -15,7 +16,9 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
@@ -32,6 +35,10 @@ class Kernel {
 public:
     int open(const char* path, int flags, unsigned mode = 0) { return answer(::open(path, flags, mode)); }
     int close(int file) { return answer(::close(file)); }
+    /// What follows on this file does not wait.
+    int stop_waiting(int file) { return answer(::fcntl(file, F_SETFL, O_NONBLOCK)); }
+    /// Takes the file for itself among the programs that ask likewise, until it is closed; does not wait.
+    int lock(int file) { return answer(::flock(file, LOCK_EX | LOCK_NB)); }
     std::ptrdiff_t read(int file, Span<std::uint8_t> into) {
         return answer(::read(file, into.data(), static_cast<std::size_t>(into.size())));
     }
@@ -44,6 +51,8 @@ public:
     /// How many of the files have something to tell; 0 when the patience is over, which is without end below
     /// 0.
     int poll(Span<pollfd> files, std::int64_t patience_us) {
+        // Seconds have 32 bits on some boards: a billion of them are 31 years.
+        patience_us = std::min(patience_us, std::int64_t{1000000000} * 1000000);
         const timespec patience = {static_cast<time_t>(patience_us / 1000000),
                                    static_cast<long>(patience_us % 1000000 * 1000)};
         return answer(::ppoll(files.data(), static_cast<nfds_t>(files.size()),
@@ -80,6 +89,7 @@ public:
                                reinterpret_cast<const sockaddr*>(&to), to_bytes));
     }
 
+    int process_id() { return ::getpid(); }
     /// Time that only goes forward, as the kernel stamps frames and edges.
     std::int64_t monotonic_us() {
         timespec now{};
