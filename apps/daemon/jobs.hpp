@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Jobs: the recipes of a folder, all read before the first frame, so that another is taken between two frames.
+// Jobs: the recipes of a folder, all read before the first frame, so that another is taken between two
+// frames.
 #pragma once
 
 #include <algorithm>
@@ -33,8 +34,8 @@ class JobList {
 public:
     static constexpr int most = 256;
 
-    /// Reads the jobs of these names from a storage, NAME.toml below a folder. Empty if all are good; otherwise
-    /// what is wrong with the first that is not, and the list is as it was.
+    /// Reads the jobs of these names from a storage, NAME.toml below a folder. Empty if all are good;
+    /// otherwise what is wrong with the first that is not, and the list is as it was.
     template <class Storage>
     std::string read(Storage& storage, const std::string& folder, std::vector<std::string> names) {
         std::sort(names.begin(), names.end());
@@ -47,8 +48,8 @@ public:
             if (!text) return file_problem(path, text.status(), storage);
             const RecipeFile file = read_recipe(std::string(text->begin(), text->end()));
             if (!file.problem.empty())
-                return path + ":" + std::to_string(file.place.line) + ":" + std::to_string(file.place.column) + ": " +
-                       file.problem;
+                return path + ":" + std::to_string(file.place.line) + ":" +
+                       std::to_string(file.place.column) + ": " + file.problem;
             fresh.push_back({name, crc32(*text), file.recipe});
         }
         jobs_ = std::move(fresh);

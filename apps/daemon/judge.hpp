@@ -49,7 +49,7 @@ public:
             if (rank(parts_[k].verdict) > rank(parts_[worst].verdict)) worst = k;
             all = combine(all, parts_[k].verdict);
         }
-        inspection.answer = all == Verdict::ok         ? Answer::ok
+        inspection.answer = all == Verdict::ok       ? Answer::ok
                             : all == Verdict::not_ok ? Answer::not_ok
                                                      : Answer::error;
         inspection.reason = all == Verdict::ok ? "" : "unmeasured";
@@ -72,7 +72,8 @@ private:
                                                      feature.kind == FeatureKind::hole_count ? 0 : 3};
             // The first that explains the answer.
             const bool bad = result.verdict == Verdict::low || result.verdict == Verdict::high;
-            const bool explains = inspection.answer == Answer::not_ok ? bad : result.verdict == Verdict::unmeasured;
+            const bool explains =
+                inspection.answer == Answer::not_ok ? bad : result.verdict == Verdict::unmeasured;
             if (inspection.answer == Answer::ok || told || !explains) continue;
             told = true;
             inspection.reason = word_of(result.verdict);

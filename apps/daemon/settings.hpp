@@ -10,26 +10,19 @@
 
 #include <fovea/base/list.hpp>
 #include <fovea/hal/pixel_format.hpp>
-#include <fovea/image/geometry.hpp>
+#include <fovea/linux/text.hpp>
 
 #include <daemon/verdict_lines.hpp>
 
 namespace fovea::apps {
 
-/// Text of a bounded length, ended by a zero.
-template <std::size_t Capacity>
-struct Text {
-    char letters[Capacity] = {};
-
-    bool empty() const { return letters[0] == '\0'; }
-    const char* c_str() const { return letters; }
-};
+using linux_port::Text;
 
 enum class TriggerSource : std::uint8_t { free, line, command };
 
 /// A control of the camera by name.
 struct ControlChoice {
-    Text<64> name;
+    Text<63> name;
     std::int64_t value = 0;
 };
 
@@ -37,8 +30,8 @@ struct Settings {
     static constexpr int most_controls = 32;
 
     struct Camera {
-        Text<192> device;
-        Text<192> replay;
+        Text<191> device;
+        Text<191> replay;
         std::int64_t width = 0;
         std::int64_t height = 0;
         hal::PixelFormat format = hal::PixelFormat::none;
@@ -49,40 +42,40 @@ struct Settings {
     List<ControlChoice, most_controls> controls;
     struct Trigger {
         TriggerSource source = TriggerSource::free;
-        Text<64> line;
+        Text<63> line;
         std::int64_t debounce_us = 0;
         std::int64_t timeout_ms = 1000;
     } trigger;
     struct Lines {
-        Text<64> chip;
-        Text<64> ready;
-        Text<64> busy;
-        Text<64> valid;
-        Text<64> ok;
-        Text<64> not_ok;
-        Text<64> alarm;
+        Text<63> chip;
+        Text<63> ready;
+        Text<63> busy;
+        Text<63> valid;
+        Text<63> ok;
+        Text<63> not_ok;
+        Text<63> alarm;
         bool active_low = false;
         LineMode mode = LineMode::hold;
         std::int64_t pulse_ms = 50;
         bool error_is_not_ok = false;
     } lines;
     struct Serial {
-        Text<192> device;
+        Text<191> device;
         std::int64_t baud = 115200;
         bool rs485 = false;
         bool commands = true;
         bool silent = false;
-        Text<257> results;
+        Text<256> results;
     } serial;
     struct Jobs {
-        Text<192> folder;
-        Text<64> start;
+        Text<191> folder;
+        Text<63> start;
     } jobs;
     struct Results {
         bool json = true;
     } results;
     struct Failures {
-        Text<192> folder;
+        Text<191> folder;
         std::int64_t megabytes = 100;
         std::int64_t pictures = 1000;
     } failures;
@@ -123,11 +116,10 @@ Span<const SettingKey> setting_keys();
 
 namespace detail {
 
-template <std::size_t Capacity>
+template <int Capacity>
 void load_text(Text<Capacity>& into, const SettingValue& value) {
-    into = {};
-    for (std::ptrdiff_t k = 0; k < value.text.size() && k + 1 < std::ptrdiff_t{Capacity}; ++k)
-        into.letters[k] = value.text[k];
+    into.clear();
+    into.add(value.text);
 }
 template <auto Part, auto Member>
 void set_text(Settings& settings, const SettingValue& value) {

@@ -63,6 +63,8 @@ struct SimulatedCamera {
     /// What of the frame is filled after a format was set; 0 where the driver has no such rectangle.
     int compose_width = 0;
     bool compose_can_be_set = true;
+    /// What the sensor sees, row by row without padding; nullptr for the bytes of camera_byte().
+    const std::vector<std::uint8_t>* scene = nullptr;
     /// Requests that are refused once, with that errno.
     std::map<unsigned long, int> refused_once;
 
@@ -130,7 +132,9 @@ struct SimulatedCamera {
         for (auto& plane : buffer.planes) {
             std::fill(plane.begin(), plane.end(), std::uint8_t{0});
             for (std::size_t k = static_cast<std::size_t>(data_offset); k < plane.size(); ++k)
-                plane[k] = camera_byte(buffer.sequence, offset++);
+                plane[k] = scene != nullptr && offset < scene->size()
+                               ? (*scene)[offset++]
+                               : camera_byte(buffer.sequence, offset++);
             const auto all = static_cast<std::uint32_t>(plane.size());
             buffer.used.push_back(cut_short.count(number) != 0 ? all / 2 : all);
         }

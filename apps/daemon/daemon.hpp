@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MIT
+//
+// Daemon: from triggers and frames to verdicts on lines, on a serial line and as JSON. One loop, which never
+// waits.
+//
+//     no camera or no job --both there--> ready --trigger--> busy --answer--> ready
+//
+// In free run every frame is its own trigger. Otherwise a trigger is an edge on a line or the command TRG;
+// its frame is the first that was wholly taken after it. Every trigger gets exactly one answer: OK, NG, ERROR
+// or MISSED.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/hal/frame_source.hpp>
+#include <fovea/image/image_view.hpp>
+
+#include <daemon/camera_keeper.hpp>
+#include <daemon/command.hpp>
+#include <daemon/daemon_events.hpp>
+#include <daemon/daemon_replies.hpp>
+#include <daemon/inspection.hpp>
+#include <daemon/jobs.hpp>
+#include <daemon/judge.hpp>
+#include <daemon/result_template.hpp>
+#include <daemon/settings.hpp>
+#include <daemon/tally.hpp>
+#include <daemon/text_buffer.hpp>
+#include <daemon/verdict_lines.hpp>
+
+namespace fovea::apps {
+
+/// An edge on the trigger's line.
+struct TriggerEdge {
+    std::int64_t time_us = 0;
+    /// Edges in front of it that the kernel had no room for.
+    std::uint32_t lost = 0;
+};
+
+/// What is done with a result, and how triggers come.
+struct DaemonOptions {
+    TriggerSource source = TriggerSource::free;
+    std::int64_t timeout_us = 1000000;
+    bool every_frame = false;
+    bool json = true;
+    bool silent = false;
+    bool commands = true;
+    bool serial_results = false;
+    bool serial_json = false;
+    ResultTemplate serial_template;
+    const char* version = "";
+};
+
+/// World is what the daemon is connected to:
+///   std::int64_t now_us()
+///   camera()                      a CameraKeeper
+///   const char* camera_fault(), camera_advice(), link_fault()      of their last trouble
+///   Status gray(const hal::FrameInfo&, ImageView<const Gray8>&)    the picture of a frame, good until the
+///   next const char* quality(ImageView<const Gray8>)      one word for what is wrong with a picture, "" if
+///   nothing is std::int64_t frame_interval_us(), std::uint64_t missed_frames()    of the camera
+///   link()                        a SerialLink, which may have no port
+///   lines()                       VerdictLines
+///   bool next_edge(TriggerEdge&)  edges of the trigger's line that have not been taken
+///   void print(Span<const char>)  a line of JSON, without its end
+///   void keep_failure(ImageView<const Gray8>, const Inspection&)
+///   Status keep_sample(Span<const char> name, ImageView<const Gray8>)
+///   Span<std::uint8_t> scratch()  for judge_scratch() of every job
+///   const JobList& jobs()
+template <class World>
+class Daemon {
+public:
+    Daemon(World& world, const DaemonOptions& options) : world_(world), options_(options) {}
+
+    /// Takes a job by its number; false if it does not fit the memory.
+    bool take_job(int number);
+    int job() const { return job_; }
+
+    /// One turn of the loop. The moment of the next at the latest; earlier when the camera, the serial line
+    /// or the trigger's line has something.
+    std::int64_t turn();
+
+    /// Ends: a trigger that waits is answered, and all lines are inactive.
+    void stop();
+
+    const Tally& tally() const { return tally_; }
+    bool ready() const {
+        return job_ != 0 && world_.camera().streaming() && world_.camera().trouble() == CameraTrouble::none;
+    }
+    bool busy() const { return waiting_; }
+    std::uint64_t damaged_pictures() const { return damaged_pictures_; }
+
+private:
+    using Frame = typename std::remove_reference_t<decltype(std::declval<World&>().camera())>::Frame;
+
+    void take_commands();
+    void obey(const Command& command);
+    CommandError change_job(const Command& command, TextBuffer& text);
+    void reply(const TextBuffer& text);
+    void take_edges();
+    void begin_trigger(std::int64_t time_us);
+    void count_missed(std::int64_t time_us);
+    void take_frame();
+    void judge_frame(const hal::FrameInfo& info);
+    void answer_error(const char* reason);
+    void answer(const ImageView<const Gray8>* picture);
+
+    World& world_;
+    DaemonOptions options_;
+    DaemonEvents<World> events_{world_};
+    Judge judge_;
+    Tally tally_;
+    Inspection inspection_;
+    int job_ = 0;
+    /// A trigger waits for its frame since then.
+    bool waiting_ = false;
+    std::int64_t trigger_us_ = 0;
+    std::uint64_t numbers_ = 0;
+    std::uint64_t damaged_pictures_ = 0;
+    std::int64_t busy_until_us_ = 0;
+    bool has_last_ = false;
+    Text<longest_job_name> teach_;
+    char line_room_[16384];
+    char reply_room_[4096];
+    Frame frame_;
+};
+
+// ---- Implementation ---------------------------------------------------------------
+
+template <class World>
+bool Daemon<World>::take_job(int number) {
+    if (number < 1 || number > world_.jobs().size()) return false;
+    job_ = number;
+    return true;
+}
+
+template <class World>
+void Daemon<World>::reply(const TextBuffer& text) {
+    TextBuffer line = text;
+    line.text("\r\n");
+    if (!line.full()) static_cast<void>(world_.link().send(line.bytes()));
+}
+
+template <class World>
+void Daemon<World>::take_commands() {
+    // A flood of lines takes no more of a turn than so many replies.
+    for (int most = 16; most > 0; --most) {
+        const Result<Span<const char>> line = world_.link().next_line();
+        if (line && line->empty()) return;
+        if (!options_.commands) continue;
+        if (!line) {
+            TextBuffer text{Span<char>(reply_room_)};
+            reply_error({}, CommandError::malformed, text);
+            reply(text);
+            continue;
+        }
+        obey(read_command(*line));
+    }
+}
+
+template <class World>
+void Daemon<World>::obey(const Command& command) {
+    TextBuffer text{Span<char>(reply_room_)};
+    reply_ok(command, text);
+    CommandError error = command.error;
+    if (error == CommandError::none) switch (command.verb) {
+            case CommandVerb::none: return;
+            case CommandVerb::trigger:
+                if (!waiting_) {
+                    // In front of the result.
+                    if (!options_.silent) reply(text);
+                    return begin_trigger(world_.now_us());
+                }
+                count_missed(world_.now_us());
+                error = CommandError::busy;
+                break;
+            case CommandVerb::list_jobs: add_jobs(world_.jobs(), text); break;
+            case CommandVerb::ask_job: add_job(world_.jobs(), job_, text); break;
+            case CommandVerb::take_job: error = change_job(command, text); break;
+            case CommandVerb::ask_tally: add_tally(tally_, text); break;
+            case CommandVerb::reset_tally: tally_ = {}; break;
+            case CommandVerb::ask_last:
+                if (has_last_)
+                    write_json(inspection_, text.put(' '));
+                else
+                    error = CommandError::nothing_yet;
+                break;
+            case CommandVerb::ask_ready: text.text(ready() && !waiting_ ? " 1" : " 0"); break;
+            case CommandVerb::teach:
+                if (ready())
+                    teach_ = Text<longest_job_name>().add(command.name);
+                else
+                    error = CommandError::not_ready;
+                break;
+            case CommandVerb::ask_version: text.text(" fovead ").text(options_.version); break;
+        }
+    if (error != CommandError::none) {
+        text.clear();
+        reply_error(command, error, text);
+    }
+    if (!options_.silent || asks(command.verb) || error != CommandError::none) reply(text);
+}
+
+template <class World>
+CommandError Daemon<World>::change_job(const Command& command, TextBuffer& text) {
+    const int number = world_.jobs().find(command.name, command.number);
+    if (number == 0) return CommandError::no_such_job;
+    if (!take_job(number)) return CommandError::job_refused;
+    add_job(world_.jobs(), job_, text);
+    events_.tell_job(letters_of(world_.jobs()[job_].name.c_str()));
+    return CommandError::none;
+}
+
+template <class World>
+void Daemon<World>::take_edges() {
+    TriggerEdge edge;
+    while (world_.next_edge(edge)) {
+        for (std::uint32_t k = 0; k < edge.lost; ++k) count_missed(edge.time_us);
+        if (options_.source != TriggerSource::line) continue;
+        if (waiting_ || edge.time_us < busy_until_us_)
+            count_missed(edge.time_us);
+        else
+            begin_trigger(edge.time_us);
+    }
+}
+
+template <class World>
+void Daemon<World>::begin_trigger(std::int64_t time_us) {
+    inspection_.number = ++numbers_;
+    trigger_us_ = time_us;
+    waiting_ = true;
+    world_.lines().begin();
+    if (!ready()) answer_error(job_ == 0 ? "no_job" : "no_camera");
+}
+
+template <class World>
+void Daemon<World>::count_missed(std::int64_t time_us) {
+    ++numbers_;
+    tally_.count(Answer::missed);
+    events_.tell_missed(numbers_, time_us);
+}
+
+template <class World>
+void Daemon<World>::take_frame() {
+    const bool free = options_.source == TriggerSource::free;
+    const bool wanted = free || waiting_ || !teach_.empty();
+    const std::int64_t oldest_us = world_.frame_interval_us() * 3 / 2;
+    // A frame that nobody waits for goes back at once: so the camera is heard, and what comes is fresh.
+    const FramePolicy policy = waiting_                        ? FramePolicy::after_trigger
+                               : free && !options_.every_frame ? FramePolicy::latest
+                                                               : FramePolicy::every;
+    const Status got = world_.camera().fetch(policy, waiting_ ? trigger_us_ : oldest_us, frame_);
+    events_.tell_camera();
+    if (got == Status::ok && wanted && job_ != 0) {
+        judge_frame(frame_.info());
+    } else if (waiting_ && world_.camera().trouble() != CameraTrouble::none) {
+        answer_error("no_camera");
+    }
+    frame_.give_back();
+    if (waiting_ && world_.now_us() - trigger_us_ > options_.timeout_us) answer_error("no_frame");
+}
+
+template <class World>
+void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
+    ImageView<const Gray8> picture;
+    if (world_.gray(info, picture) != Status::ok) {
+        // What could not be decoded is no frame: the trigger waits for the next.
+        ++damaged_pictures_;
+        return;
+    }
+    if (!teach_.empty()) {
+        const Status kept = world_.keep_sample({teach_.c_str(), teach_.size()}, picture);
+        events_.tell_sample({teach_.c_str(), teach_.size()}, kept);
+        teach_.clear();
+        if (options_.source != TriggerSource::free && !waiting_) return;
+    }
+    if (!waiting_) {
+        inspection_.number = ++numbers_;
+        trigger_us_ = info.time_us;
+        world_.lines().begin();
+    }
+    const std::int64_t begin_us = world_.now_us();
+    inspection_.has_frame = true;
+    inspection_.frame = info.sequence;
+    inspection_.age_us = begin_us - info.time_us;
+    inspection_.parts = inspection_.values = 0;
+    inspection_.feature = {};
+    const char* const quality = world_.quality(picture);
+    if (quality[0] != '\0') {
+        inspection_.answer = Answer::error;
+        inspection_.reason = quality;
+    } else {
+        judge_.judge(picture, world_.jobs()[job_].recipe, world_.scratch(), inspection_);
+    }
+    inspection_.judged_us = world_.now_us() - begin_us;
+    answer(&picture);
+    events_.tell_quality(quality);
+}
+
+template <class World>
+void Daemon<World>::answer_error(const char* reason) {
+    inspection_.answer = Answer::error;
+    inspection_.reason = reason;
+    inspection_.feature = {};
+    inspection_.has_frame = false;
+    inspection_.parts = inspection_.values = 0;
+    inspection_.judged_us = 0;
+    answer(nullptr);
+}
+
+template <class World>
+void Daemon<World>::answer(const ImageView<const Gray8>* picture) {
+    const std::int64_t now_us = world_.now_us();
+    // The lines first: a machine waits for them.
+    world_.lines().show(inspection_.answer, now_us);
+    waiting_ = false;
+    busy_until_us_ = now_us;
+    inspection_.time_us = now_us;
+    inspection_.took_us = now_us - trigger_us_;
+    inspection_.missed_frames = world_.missed_frames();
+    inspection_.job_number = job_;
+    inspection_.job = job_ == 0 ? Span<const char>() : letters_of(world_.jobs()[job_].name.c_str());
+    inspection_.job_crc = job_ == 0 ? 0 : world_.jobs()[job_].crc;
+    has_last_ = true;
+    tally_.count(inspection_.answer);
+    if (inspection_.answer == Answer::ok || inspection_.answer == Answer::not_ok)
+        tally_.took(inspection_.took_us);
+
+    TextBuffer line{Span<char>(line_room_)};
+    if (options_.serial_results) {
+        if (options_.serial_json)
+            write_json(inspection_, line), line.text("\r\n");
+        else
+            options_.serial_template.write(inspection_, tally_, line);
+        if (!line.full() && line.size() > 0) static_cast<void>(world_.link().send(line.bytes()));
+    }
+    if (options_.json) {
+        line.clear();
+        write_json(inspection_, line);
+        if (!line.full()) world_.print(line.letters());
+    }
+    if (inspection_.answer != Answer::ok && picture != nullptr) world_.keep_failure(*picture, inspection_);
+}
+
+template <class World>
+std::int64_t Daemon<World>::turn() {
+    const std::int64_t now_us = world_.now_us();
+    world_.link().turn(now_us);
+    events_.tell_link();
+    take_commands();
+    take_edges();
+    take_frame();
+    auto& lines = world_.lines();
+    lines.set_ready(ready() && !waiting_);
+    lines.set_alarm(job_ == 0 || world_.camera().trouble() != CameraTrouble::none || events_.quality_bad());
+    std::int64_t next_us = world_.camera().next_try_us();
+    const auto sooner = [&](std::int64_t at_us) { next_us = at_us < next_us ? at_us : next_us; };
+    if (const std::int64_t pulse_us = lines.turn(now_us); pulse_us >= 0) sooner(pulse_us);
+    events_.tell_lines(lines.take_fault());
+    if (waiting_) sooner(trigger_us_ + options_.timeout_us + 1);
+    if (!world_.link().open()) sooner(world_.link().next_try_us());
+    // Replies leave in the turn in which they were made.
+    world_.link().turn(now_us);
+    return next_us;
+}
+
+template <class World>
+void Daemon<World>::stop() {
+    if (waiting_) answer_error("stopped");
+    frame_.give_back();
+    world_.lines().make_safe();
+    world_.link().turn(world_.now_us());
+}
+
+}  // namespace fovea::apps

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//
+// DaemonEvents: what the daemon says beside its results, a line of JSON each: once when it begins, once when
+// it ends.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+
+#include <daemon/camera_keeper.hpp>
+#include <daemon/text_buffer.hpp>
+
+namespace fovea::apps {
+
+/// World as Daemon has it.
+template <class World>
+class DaemonEvents {
+public:
+    explicit DaemonEvents(World& world) : world_(world) {}
+
+    void tell_camera() {
+        CameraEvent event;
+        if (!world_.camera().take_event(event)) return;
+        if (event.trouble == CameraTrouble::none) {
+            begin("camera_back").text(",\"after_us\":").number(event.lasted_us);
+            return end();
+        }
+        begin(word_of(event.trouble)).text(",\"reason\":").json(letters_of(world_.camera_fault()));
+        const char* const advice = world_.camera_advice();
+        if (advice[0] != '\0') line_.text(",\"try\":").json(letters_of(advice));
+        end();
+    }
+
+    void tell_link() {
+        if (!world_.link().take_event()) return;
+        const Status trouble = world_.link().trouble();
+        begin(trouble == Status::ok ? "serial_back" : "serial_lost");
+        if (trouble != Status::ok) line_.text(",\"reason\":").json(letters_of(world_.link_fault()));
+        line_.text(",\"dropped\":").number(world_.link().dropped());
+        end();
+    }
+
+    /// Of every picture; the word is empty for one that can be judged.
+    void tell_quality(const char* word) {
+        if (letters_equal(word, quality_)) return;
+        quality_ = word;
+        begin(quality_bad() ? "image_quality" : "image_quality_back");
+        if (quality_bad()) line_.text(",\"reason\":\"").text(word).text("\"");
+        end();
+    }
+    bool quality_bad() const { return quality_[0] != '\0'; }
+
+    /// Of every turn: what a pin answered.
+    void tell_lines(Status pin) {
+        const bool told = lines_ != Status::ok;
+        lines_ = pin;
+        if (pin == Status::ok || told) return;
+        begin("lines_lost").text(",\"reason\":").json(letters_of(describe(pin)));
+        end();
+    }
+
+    void tell_missed(std::uint64_t number, std::int64_t trigger_us) {
+        begin("trigger_missed").text(",\"seq\":").number(static_cast<std::int64_t>(number));
+        line_.text(",\"trigger_us\":").number(trigger_us);
+        end();
+    }
+    void tell_sample(Span<const char> name, Status kept) {
+        begin(kept == Status::ok ? "sample" : "sample_lost").text(",\"name\":").json(name);
+        end();
+    }
+    void tell_job(Span<const char> name) {
+        begin("job").text(",\"job\":").json(name);
+        end();
+    }
+
+private:
+    static bool letters_equal(const char* a, const char* b) {
+        while (*a != '\0' && *a == *b) ++a, ++b;
+        return *a == *b;
+    }
+    TextBuffer& begin(const char* event) {
+        line_.clear();
+        return line_.text("{\"v\":1,\"ev\":\"").text(event).text("\",\"t_mono_us\":").number(world_.now_us());
+    }
+    void end() {
+        line_.put('}');
+        if (!line_.full()) world_.print(line_.letters());
+    }
+
+    World& world_;
+    char room_[1024];
+    TextBuffer line_{Span<char>(room_)};
+    const char* quality_ = "";
+    Status lines_ = Status::ok;
+};
+
+}  // namespace fovea::apps
