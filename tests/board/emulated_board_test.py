@@ -9,32 +9,15 @@ import socket
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import urllib.request
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from cases import case, holds, run_cases, same
 from debian import BoardError
 from emulated_board import EmulatedBoard
 
 HERE = Path(__file__).resolve().parent
-cases = []
-
-
-def case(function):
-    cases.append(function)
-    return function
-
-
-def same(seen, wanted):
-    if seen != wanted:
-        raise AssertionError(f"{wanted!r} was expected, {seen!r} came")
-
-
-def holds(text, words):
-    if words not in text:
-        raise AssertionError(f"'{words}' is not in {text!r}")
 
 
 def start(*words, **options):
@@ -372,26 +355,9 @@ def a_board_that_cannot_start_leaves_nothing():
 # ---- Running them ---------------------------------------------------------------------------
 
 
-def tried(function):
-    begin = time.monotonic()
-    try:
-        function()
-        fault = ""
-    except Exception as error:  # a fault of one case is told, and the others run
-        fault = f"{type(error).__name__}: {error}"
-    print(f"{'FAILED' if fault else 'ok':6s} {time.monotonic() - begin:5.1f} s  {function.__name__}"
-          + (f"\n       {fault}" if fault else ""), flush=True)
-    return not fault
-
-
 def main():
-    chosen = [c for c in cases if not sys.argv[1:] or any(word in c.__name__ for word in sys.argv[1:])]
     subprocess.run([HERE / "run_on_board", "--prepare"], check=True)
-    threading.excepthook = lambda _: None
-    with ThreadPoolExecutor(2) as pool:
-        verdicts = list(pool.map(tried, chosen))
-    print(f"emulated board: {sum(verdicts)} passed, {verdicts.count(False)} failed")
-    return 0 if verdicts and all(verdicts) else 1
+    return run_cases("emulated board", sys.argv[1:])
 
 
 if __name__ == "__main__":
