@@ -161,11 +161,11 @@ def too_little_memory_is_told():
 @case
 def time_runs_out():
     start_s = time.monotonic()
-    status, out, complaint = run("--seconds", "8", "--", "sh", "-c", "echo before; sleep 99")
-    same((status, out), (124, "before\n"))
-    holds(complaint, "no end after 8.0 s")
-    if time.monotonic() - start_s > 12:
-        raise AssertionError("it took more than 12 s")
+    status, _, complaint = run("--seconds", "5", "--", "sleep", "99")
+    same(status, 124)
+    holds(complaint, "no end after 5.0 s")
+    if time.monotonic() - start_s > 15:
+        raise AssertionError("it took more than 15 s")
 
 
 def processes_with(text):
@@ -234,11 +234,13 @@ def two_cameras_with_their_outputs():
 
 
 @case
-def modules_take_options():
-    script = "ls /dev/watchdog; ls /dev | grep -c 'loop[0-9]'"
-    with booted(script, modules=["softdog", "loop max_loop=3"]) as board:
-        expect(board, "/dev/watchdog")
-        expect(board, "3")
+def modules_take_options_and_processors_are_counted():
+    script = """
+ls /dev/watchdog; ls /dev | grep -c 'loop[0-9]'; cat /sys/module/vivid/parameters/no_error_inj; nproc"""
+    modules = ["softdog", "loop max_loop=3"]
+    with booted(script, modules=modules, cameras=1, vivid="no_error_inj=1", cpus=2) as board:
+        for line in ("/dev/watchdog", "3", "Y", "2"):
+            expect(board, line)
         ends_well(board)
 
 
@@ -290,8 +292,9 @@ def pins_are_driven_and_seen():
 gpiomon --line-buffered --num-events=2 --format='%e %o' gpiochip0 3 &
 until gpioinfo gpiochip0 | grep -q 'line *3.*used'; do sleep 0.05; done
 echo ready; wait
-gpioset gpiochip0 5=1; gpioset gpiochip0 5=0; gpioset gpiochip0 6=1; gpioget gpiochip0 2"""
-    with booted(script, packages=["gpiod"]) as board:
+gpioset gpiochip0 5=1; gpioset gpiochip0 5=0; gpioset gpiochip0 6=1; gpioget gpiochip0 2
+read -r end"""
+    with booted(script, packages=["gpiod"], stdin=subprocess.PIPE) as board:
         pins = board.pins
         pins.drive(2, 1)
         expect(board, "ready")
@@ -305,7 +308,24 @@ gpioset gpiochip0 5=1; gpioset gpiochip0 5=0; gpioset gpiochip0 6=1; gpioget gpi
         same(pins.wait_for(6, 1), True)
         same((pins.outputs().get(6), pins.outputs().get(5)), (1, 0))
         expect(board, "1")
-        same((board.wait(), board.trouble), (0, ""))
+        board.process.stdin.write(b"end\n")
+        board.process.stdin.flush()
+        ends_well(board)
+
+
+@case
+def more_pins_and_names_by_gpio_sim():
+    script = """
+chip=/sys/kernel/config/gpio-sim/board
+mkdir -p $chip/bank/line10; echo 12 > $chip/bank/num_lines; echo trigger > $chip/bank/line10/name
+echo 1 > $chip/live
+pull=$(ls -d /sys/devices/platform/gpio-sim.*/gpiochip*/sim_gpio10)/pull
+gpiofind trigger; gpioget $(gpiofind trigger)
+echo pull-up > $pull; gpioget $(gpiofind trigger)"""
+    with booted(script, packages=["gpiod"], modules=["gpio-sim"]) as board:
+        for line in ("gpiochip1 10", "0", "1"):
+            expect(board, line)
+        ends_well(board)
 
 
 @case

@@ -2,6 +2,7 @@
 import re
 import shutil
 
+import gpio_sim
 from debian import BoardError, Packages
 
 # Found by alias at run time, in the kernel's words a soft dependency.
@@ -50,6 +51,8 @@ class Kernel:
         """Files of the modules and of all they depend on, each after what it needs."""
         files = []
         for name in names:
+            if plain(name) == "gpio_sim" and not self.has(name):
+                gpio_sim.build(self.cache, self.version, self.folder / "modules")
             if not self.has(name):
                 raise BoardError(f"the kernel {self.version} has no module {name}")
             file = self.module(name)

@@ -57,8 +57,10 @@ class Pins:
         came = False
         while select.select([self.world], [], [], seconds if seconds is None else max(seconds, 0))[0]:
             data = self.world.recv(4096)
-            if not data:
+            if not data and not came:
                 raise ConnectionError("the board has ended")
+            if not data:
+                break
             *lines, self.unread = (self.unread + data).split(b"\n")
             for words in (line.decode().split() for line in lines):
                 if words[0] == "IRQ":
