@@ -1,5 +1,5 @@
-"""The module gpio-sim, which Debian's kernel lacks, built from Debian's source of that kernel: pins with names, and
-more than the board's eight. Wants make and gcc-aarch64-linux-gnu on the host.
+"""The module gpio-sim, which Debian's kernel lacks, built from Debian's source of that kernel: pins with
+names, and more than the board's eight. Wants make and gcc-aarch64-linux-gnu on the host.
 """
 import shutil
 import tarfile
