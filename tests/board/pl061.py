@@ -1,0 +1,71 @@
+"""The pins of an emulated board, driven and seen from outside."""
+import collections
+import select
+import time
+
+DATA, DIRECTION = 0x90303FC, 0x9030400  # registers of QEMU's board "virt"
+
+
+class Pins:
+    """The eight lines of the board's PL061 over QEMU's test socket. It sees changes from when it was made."""
+
+    def __init__(self, world, machine):
+        """world: the test socket, connected; machine: what answers to commands of QMP."""
+        objects = machine("qom-list", path="/machine/unattached")
+        name = next(entry["name"] for entry in objects if entry["type"] == "child<pl061>")
+        self.path = f"/machine/unattached/{name}"
+        self.world, self.unread, self.answers, self.events = world, b"", [], collections.deque()
+        self.tell(f"irq_intercept_out {self.path}")
+
+    def drive(self, line, level):
+        """Puts a level on an input."""
+        self.tell(f"set_irq_in {self.path} unnamed-gpio-in {line} {int(level)}")
+
+    def outputs(self):
+        """{line: level} of the lines that are outputs."""
+        levels, outputs = (int(self.tell(f"readl {register:#x}")[0], 16) for register in (DATA, DIRECTION))
+        return {line: levels >> line & 1 for line in range(8) if outputs >> line & 1}
+
+    def changes(self):
+        """[(line, level)] of outputs since the last call, in order."""
+        self.read(0)
+        seen = list(self.events)
+        self.events.clear()
+        return seen
+
+    def wait_for(self, line, level, seconds=10):
+        """Takes changes until this one comes: is it seen in time?"""
+        end = time.monotonic() + seconds
+        while True:
+            while self.events:
+                if self.events.popleft() == (line, level):
+                    return True
+            if not self.read(end - time.monotonic()):
+                return False
+
+    def tell(self, command):
+        self.world.sendall(f"{command}\n".encode())
+        while not self.answers:
+            self.read(None)
+        answer = self.answers.pop(0)
+        if answer[0] != "OK":
+            raise OSError(f"{command}: {answer}")
+        return answer[1:]
+
+    def read(self, seconds):
+        """Sorts what QEMU says into answers and events; waits so long for the first. False: nothing came."""
+        came = False
+        while select.select([self.world], [], [], seconds if seconds is None else max(seconds, 0))[0]:
+            data = self.world.recv(4096)
+            if not data and not came:
+                raise ConnectionError("the board has ended")
+            if not data:
+                break
+            *lines, self.unread = (self.unread + data).split(b"\n")
+            for words in (line.decode().split() for line in lines):
+                if words[0] == "IRQ":
+                    self.events.append((int(words[2]), int(words[1] == "raise")))
+                else:
+                    self.answers.append(words)
+            came, seconds = True, 0
+        return came
