@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// CameraOpening: finds the camera that the settings name, chooses what it sends, sets its controls and starts it.
+// CameraOpening: finds the camera that the settings name, chooses what it sends, sets its controls and starts
+// it.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +31,8 @@ public:
 
     /// From the second time on the frames must have the size of the first: memory was laid out for it.
     ///
-    /// Errors  not_found and device_lost where there is no such camera; size_mismatch; otherwise what the camera
-    ///         says, or its controls. problem() and advice() tell more
+    /// Errors  not_found and device_lost where there is no such camera; size_mismatch; otherwise what the
+    ///         camera says, or its controls. problem() and advice() tell more
     Status operator()(Camera& camera) {
         problem_.clear();
         advice_ = "";

@@ -71,6 +71,9 @@ struct Settings {
         Text<191> folder;
         Text<63> start;
     } jobs;
+    struct Teach {
+        Text<191> folder;
+    } teach;
     struct Results {
         bool json = true;
     } results;
@@ -227,6 +230,10 @@ inline Span<const SettingKey> setting_keys() {
          set_text<&S::jobs, &S::Jobs::folder>, 1, 191},
         {"jobs", "start", text, "\"\"", "the job to begin with; \"\" for the first by name",
          set_text<&S::jobs, &S::Jobs::start>, 0, 63},
+
+        {"teach", "folder", text, "\"\"",
+         "folder for the samples that the command TEACH keeps; \"\" to keep none",
+         set_text<&S::teach, &S::Teach::folder>, 0, 191},
 
         {"results", "json", boolean, "true", "print every result as a line of JSON",
          set_number<&S::results, &S::Results::json>},

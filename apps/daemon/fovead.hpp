@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+//
+// The program fovead: its words, its files, and what it does when it is told to end or to read its settings
+// anew.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fovea/base/status.hpp>
+#include <fovea/linux/fault.hpp>
+#include <fovea/linux/file_storage.hpp>
+#include <fovea/linux/folder.hpp>
+#include <fovea/linux/kernel.hpp>
+#include <fovea/linux/service_notify.hpp>
+
+#include <common/io.hpp>
+#include <common/text.hpp>
+#include <daemon/daemon.hpp>
+#include <daemon/jobs.hpp>
+#include <daemon/linux_world.hpp>
+#include <daemon/settings.hpp>
+#include <daemon/settings_reader.hpp>
+
+namespace fovea::apps {
+
+/// How the daemon ends, as sysexits has it.
+enum DaemonExit : int {
+    daemon_ok = 0,
+    daemon_usage = 64,        ///< words that it does not know
+    daemon_unavailable = 69,  ///< a device is not there, or another has it
+    daemon_config = 78,       ///< the settings or a job are wrong
+};
+
+/// What has to be looked at between two turns; signals set it.
+struct DaemonSignals {
+    bool end = false;
+    bool reload = false;
+    bool tell = false;
+};
+
+/// Settings with their jobs, as they stand in files; problem is one line for a person.
+struct DaemonFiles {
+    Settings settings;
+    JobList jobs;
+    int job = 0;
+    std::string problem;
+};
+
+/// A path below the folder of another file, if it is not absolute.
+inline std::string beside(const std::string& file, const std::string& path) {
+    const std::size_t slash = file.rfind('/');
+    if (path.empty() || path[0] == '/' || slash == std::string::npos) return path;
+    return file.substr(0, slash + 1) + path;
+}
+
+/// Reads the settings and all jobs.
+inline DaemonFiles read_daemon_files(const std::string& path) {
+    DaemonFiles files;
+    linux_port::FileStorage storage(std::size_t{1} << 20);
+    const Result<Span<const std::uint8_t>> text = storage.load(path.c_str());
+    if (!text) {
+        files.problem = file_problem(path, text.status(), storage);
+        return files;
+    }
+    const SettingsProblem found = read_settings(std::string(text->begin(), text->end()), files.settings);
+    if (!found.problem.empty()) {
+        files.problem = path + ":" + std::to_string(found.place.line) + ":" +
+                        std::to_string(found.place.column) + ": " + found.problem;
+        return files;
+    }
+    const std::string folder = beside(path, files.settings.jobs.folder.c_str());
+    std::vector<std::string> names;
+    linux_port::Kernel kernel;
+    linux_port::Fault fault;
+    const Status listed = linux_port::each_entry(kernel, folder.c_str(), fault, [&](const char* name) {
+        names.push_back(name);
+        return Status::ok;
+    });
+    if (listed != Status::ok) {
+        files.problem =
+            folder + ": " + linux_port::reason(fault) + "; the folder of the jobs is set in [jobs]";
+        return files;
+    }
+    files.problem = files.jobs.read(storage, folder, job_names(names));
+    if (!files.problem.empty()) return files;
+    const Text<63>& start = files.settings.jobs.start;
+    files.job = start.empty() ? 1 : files.jobs.find({start.c_str(), start.size()}, 0);
+    if (files.job == 0) files.problem = path + ": [jobs] start: no job " + start.c_str() + " in " + folder;
+    return files;
+}
+
+inline DaemonOptions daemon_options(const Settings& settings, const char* version) {
+    DaemonOptions options;
+    options.source = settings.trigger.source;
+    options.timeout_us = settings.trigger.timeout_ms * 1000;
+    options.every_frame = settings.camera.every_frame;
+    options.json = settings.results.json;
+    options.silent = settings.serial.silent;
+    options.commands = settings.serial.commands;
+    options.version = version;
+    const std::string results = settings.serial.results.c_str();
+    options.serial_json = results == "json";
+    options.serial_results = !results.empty() && !settings.serial.device.empty();
+    if (!options.serial_results || options.serial_json) return options;
+    const char* const preset = result_preset(span_of(results));
+    // read_settings() has read it before.
+    static_cast<void>(options.serial_template.read(letters_of(preset != nullptr ? preset : results.c_str())));
+    return options;
+}
+
+/// The daemon as it runs by one set of files.
+template <class System>
+class DaemonSession {
+public:
+    DaemonSession(const DaemonFiles& files, const char* version, System system)
+        : files_(files),
+          world_(files_.settings, files_.jobs, system),
+          daemon_(world_, daemon_options(files_.settings, version)) {}
+
+    /// Empty if all is open, or what is not.
+    std::string open(const char* version) {
+        const std::string problem = world_.open();
+        if (!problem.empty()) return problem;
+        daemon_.take_job(files_.job);
+        char room[1024];
+        TextBuffer line(room);
+        line.text("{\"v\":1,\"ev\":\"start\",\"t_mono_us\":").number(world_.now_us());
+        line.text(",\"version\":\"").text(version).text("\",\"jobs\":").number(files_.jobs.size());
+        line.text(",\"job\":").json(span_of(files_.jobs[files_.job].name));
+        if (world_.camera().streaming()) {
+            const auto& opening = world_.opening();
+            line.text(",\"camera\":").json({opening.path().c_str(), opening.path().size()});
+            line.text(",\"format\":\"").text(hal::describe(opening.format()));
+            line.text("\",\"width\":")
+                .number(opening.size().width)
+                .text(",\"height\":")
+                .number(opening.size().height);
+            line.text(",\"interval_us\":").number(world_.frame_interval_us());
+            if (opening.control_note()[0] != '\0')
+                line.text(",\"note\":").json(letters_of(opening.control_note()));
+        }
+        line.put('}');
+        if (!line.full()) world_.print(line.letters());
+        return "";
+    }
+
+    LinuxWorld<System>& world() { return world_; }
+    Daemon<LinuxWorld<System>>& daemon() { return daemon_; }
+
+private:
+    DaemonFiles files_;
+    LinuxWorld<System> world_;
+    Daemon<LinuxWorld<System>> daemon_;
+};
+
+inline const char* fovead_help() {
+    return "usage: fovead [options]\n\n"
+           "Takes frames of a camera, judges them by a job, and answers on lines, a serial port and as "
+           "JSON.\n\n"
+           "options:\n"
+           "  --config FILE           settings (/etc/fovea/fovead.toml)\n"
+           "  --check-config          only say whether settings and jobs are good\n"
+           "  --sample-config         print settings with every key, its default and its help\n"
+           "  --settings-manual       the same as text of a manual page\n"
+           "  --version               print the version\n"
+           "  --help                  print this\n\n"
+           "SIGHUP reads settings and jobs anew, SIGTERM ends with all lines inactive.\n"
+           "Ends with 0, 64 for wrong words, 69 if a device is missing or taken, 78 if settings are wrong.\n";
+}
+
+/// Runs the daemon. take_signals() says what signals came since its last call; signal_file wakes a wait for
+/// them.
+template <class System, class Io, class TakeSignals>
+int fovead(const std::vector<std::string>& words, Io& io, System system,
+           const linux_port::NotifyEnvironment& environment, int signal_file, TakeSignals take_signals,
+           const char* version) {
+    std::string config = "/etc/fovea/fovead.toml";
+    bool check = false;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const std::string& word = words[k];
+        if (word == "--help" || word == "-h") return io.print(fovead_help()), daemon_ok;
+        if (word == "--version") return io.print(std::string("fovead ") + version + "\n"), daemon_ok;
+        if (word == "--sample-config") return io.print(sample_settings()), daemon_ok;
+        if (word == "--settings-manual") return io.print(settings_manual()), daemon_ok;
+        if (word == "--check-config") {
+            check = true;
+        } else if (word == "--config" && k + 1 < words.size()) {
+            config = words[++k];
+        } else {
+            const std::vector<std::string> known = {"--config",          "--check-config", "--sample-config",
+                                                    "--settings-manual", "--version",      "--help"};
+            io.complain(word == "--config"
+                            ? "fovead: --config wants a file"
+                            : "fovead: unknown option " + one_line(word) + hint(nearest_name(word, known)));
+            return daemon_usage;
+        }
+    }
+    DaemonFiles files = read_daemon_files(config);
+    if (!files.problem.empty()) {
+        io.complain("fovead: " + files.problem);
+        return daemon_config;
+    }
+    if (check) {
+        io.print(config + ": good, " + std::to_string(files.jobs.size()) + " jobs\n");
+        return daemon_ok;
+    }
+    linux_port::ServiceNotify<System> notify(system, environment);
+    auto session = std::make_unique<DaemonSession<System>>(files, version, system);
+    if (const std::string problem = session->open(version); !problem.empty()) {
+        io.complain("fovead: " + problem);
+        return daemon_unavailable;
+    }
+    static_cast<void>(notify.ready());
+    // Between READY and the end nothing is allocated, but to read the settings anew.
+    for (;;) {
+        const DaemonSignals signals = take_signals();
+        if (signals.end) break;
+        if (signals.reload) {
+            static_cast<void>(notify.reloading());
+            DaemonFiles fresh = read_daemon_files(config);
+            std::string problem = fresh.problem;
+            if (problem.empty()) {
+                // Devices have one owner: the old session ends before the new one begins.
+                session->daemon().stop();
+                session.reset();
+                session = std::make_unique<DaemonSession<System>>(fresh, version, system);
+                problem = session->open(version);
+                if (problem.empty()) {
+                    files = fresh;
+                } else {
+                    session.reset();
+                    session = std::make_unique<DaemonSession<System>>(files, version, system);
+                    if (const std::string worse = session->open(version); !worse.empty()) {
+                        io.complain("fovead: " + problem + "; and as it was before: " + worse);
+                        return daemon_unavailable;
+                    }
+                }
+            }
+            char room[1024];
+            TextBuffer line(room);
+            line.text("{\"v\":1,\"ev\":\"").text(problem.empty() ? "reload" : "reload_failed");
+            line.text("\",\"t_mono_us\":").number(session->world().now_us());
+            if (!problem.empty()) line.text(",\"reason\":").json(span_of(problem));
+            line.put('}');
+            if (!line.full()) session->world().print(line.letters());
+            if (!problem.empty()) io.complain("fovead: not read anew: " + problem);
+            static_cast<void>(notify.ready());
+        }
+        const std::int64_t next_us = session->daemon().turn();
+        // The watchdog is fed by turns that came to their end, and by nothing else.
+        notify.feed();
+        const std::int64_t now_us = session->world().now_us();
+        session->world().wait(next_us < now_us + 1000000 ? next_us : now_us + 1000000, signal_file);
+    }
+    static_cast<void>(notify.stopping());
+    session->daemon().stop();
+    return daemon_ok;
+}
+
+}  // namespace fovea::apps

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+//
+// LinuxWorld: the daemon's camera, serial port, lines and memory on a Linux system, as its settings name
+// them.
+#pragma once
+
+#include <poll.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/codec/pnm.hpp>
+#include <fovea/hal/frame_source.hpp>
+#include <fovea/hal/record_queue.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/linux/device_identity.hpp>
+#include <fovea/linux/fault.hpp>
+#include <fovea/linux/file_stream.hpp>
+#include <fovea/linux/gpio.hpp>
+#include <fovea/linux/gpio_chip.hpp>
+#include <fovea/linux/kernel.hpp>
+#include <fovea/linux/monotonic_clock.hpp>
+#include <fovea/linux/replace_file.hpp>
+#include <fovea/linux/serial_port.hpp>
+#include <fovea/linux/v4l2_camera.hpp>
+
+#include <daemon/camera_keeper.hpp>
+#include <daemon/camera_opening.hpp>
+#include <daemon/daemon.hpp>
+#include <daemon/gray_frame.hpp>
+#include <daemon/inspection.hpp>
+#include <daemon/jobs.hpp>
+#include <daemon/judge.hpp>
+#include <daemon/serial_link.hpp>
+#include <daemon/settings.hpp>
+#include <daemon/verdict_lines.hpp>
+
+namespace fovea::apps {
+
+/// Opens the serial port that the settings name, wherever it is plugged in today.
+template <class System>
+class SerialOpening {
+public:
+    SerialOpening(const Settings::Serial& settings, System system)
+        : settings_(settings), finder_(system), configured_(!settings.device.empty()) {}
+
+    Status operator()(linux_port::SerialPort<System>& port) {
+        if (!configured_) return Status::not_found;
+        linux_port::DevicePath path;
+        if (const Status s = finder_.resolve("tty", settings_.device.c_str(), path); s != Status::ok) {
+            fault_ = finder_.fault();
+            return s;
+        }
+        linux_port::SerialOptions options;
+        options.baud = static_cast<std::uint32_t>(settings_.baud);
+        options.rs485 = settings_.rs485 ? linux_port::Rs485::on : linux_port::Rs485::as_found;
+        const Status got = port.open(path.c_str(), options);
+        fault_ = port.fault();
+        return got;
+    }
+
+    const linux_port::Fault& fault() const { return fault_; }
+
+private:
+    Settings::Serial settings_;
+    linux_port::DeviceFinder<System> finder_;
+    linux_port::Fault fault_;
+    bool configured_;
+};
+
+template <class System = linux_port::Kernel>
+class LinuxWorld {
+public:
+    using Camera = linux_port::V4l2Camera<System>;
+    using Clock = linux_port::MonotonicClock<System>;
+    using Port = linux_port::SerialPort<System>;
+    using Pin = linux_port::OutputLine<System>;
+    /// The opening stays with the world: who looks for a reason finds it there.
+    struct OpenCamera {
+        CameraOpening<System>* opening;
+        Status operator()(Camera& camera) const { return (*opening)(camera); }
+    };
+    struct OpenPort {
+        SerialOpening<System>* opening;
+        Status operator()(Port& port) const { return (*opening)(port); }
+    };
+    using Keeper = CameraKeeper<Camera, Clock, OpenCamera>;
+    using Link = SerialLink<Port, OpenPort>;
+    using Lines = VerdictLines<Pin>;
+
+    LinuxWorld(const Settings& settings, const JobList& jobs, System system)
+        : settings_(settings), jobs_(jobs), system_(system) {}
+    LinuxWorld(const LinuxWorld&) = delete;
+    LinuxWorld& operator=(const LinuxWorld&) = delete;
+    ~LinuxWorld() {
+        lines_.make_safe();
+        camera_.close();
+    }
+
+    /// Opens what the settings name and lays out all memory. Empty if all is well, or what is not and what to
+    /// try. A serial port that is not there may come later; a camera only if its size is set.
+    std::string open();
+
+    // ---- What the daemon sees ----
+
+    std::int64_t now_us() { return system_.monotonic_us(); }
+    Keeper& camera() { return keeper_; }
+    const char* camera_fault() {
+        return opening_.problem()[0] != '\0' ? opening_.problem() : linux_port::reason(camera_.fault());
+    }
+    const char* camera_advice() {
+        return opening_.problem()[0] != '\0' ? opening_.advice() : linux_port::advice(camera_.fault());
+    }
+    const char* link_fault() {
+        return linux_port::reason(link_.open() ? port_.fault() : port_opening_.fault());
+    }
+    std::int64_t frame_interval_us() const {
+        return camera_.interval_us() > 0 ? camera_.interval_us() : 1000000 / settings_.camera.rate_per_s;
+    }
+    std::uint64_t missed_frames() const { return camera_.counters().missed; }
+    Status gray(const hal::FrameInfo& info, ImageView<const Gray8>& picture) {
+        const Result<ImageView<const Gray8>> got = gray_frame(info, span(gray_memory_));
+        if (got) picture = *got;
+        return got.status();
+    }
+    const char* quality(ImageView<const Gray8>) { return ""; }
+    Link& link() { return link_; }
+    Lines& lines() { return lines_; }
+    bool next_edge(TriggerEdge& edge) {
+        if (!trigger_.is_open()) return false;
+        linux_port::LineEdge got;
+        if (trigger_.next_edge(got) != Status::ok) return false;
+        edge = {got.time_us, got.lost};
+        return true;
+    }
+    void print(Span<const char> line) {
+        const std::ptrdiff_t size = line.size();
+        if (size + 1 > static_cast<std::ptrdiff_t>(print_line_.size())) return;
+        for (std::ptrdiff_t k = 0; k < size; ++k)
+            print_line_[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(line[k]);
+        print_line_[static_cast<std::size_t>(size)] = '\n';
+        static_cast<void>(printed_.send({print_line_.data(), size + 1}));
+        static_cast<void>(printed_.pump(output_));
+    }
+    void keep_failure(ImageView<const Gray8>, const Inspection&) {}
+    Status keep_sample(Span<const char> name, ImageView<const Gray8> picture);
+    Span<std::uint8_t> scratch() { return span(judge_memory_); }
+    const JobList& jobs() const { return jobs_; }
+
+    // ---- What the program does ----
+
+    /// Waits until something has come from the camera, the serial port, the trigger's line or the file given,
+    /// or that moment is there.
+    void wait(std::int64_t until_us, int signals);
+    const CameraOpening<System>& opening() const { return opening_; }
+    const Camera& camera_port() const { return camera_; }
+
+private:
+    static Span<std::uint8_t> span(std::vector<std::uint8_t>& memory) {
+        return {memory.data(), static_cast<std::ptrdiff_t>(memory.size())};
+    }
+    std::string open_camera();
+    std::string open_lines();
+    std::string open_serial();
+    void lay_out();
+
+    Settings settings_;
+    const JobList& jobs_;
+    System system_;
+    Clock clock_{system_};
+    Camera camera_{system_};
+    CameraOpening<System> opening_{settings_, system_};
+    Keeper keeper_{camera_, clock_, OpenCamera{&opening_}};
+    Port port_{system_};
+    SerialOpening<System> port_opening_{settings_.serial, system_};
+    std::vector<std::uint8_t> link_memory_ = std::vector<std::uint8_t>(65536);
+    Link link_{port_, OpenPort{&port_opening_}, span(link_memory_)};
+    Pin ready_{system_};
+    Pin busy_{system_};
+    Pin valid_{system_};
+    Pin ok_{system_};
+    Pin not_ok_{system_};
+    Pin alarm_{system_};
+    linux_port::InputLine<System> trigger_{system_};
+    Lines lines_{{}, {}};
+    linux_port::FileStream<System> output_{system_, 1};
+    std::vector<std::uint8_t> print_memory_ = std::vector<std::uint8_t>(262144);
+    std::vector<std::uint8_t> print_line_ = std::vector<std::uint8_t>(16384 + 1);
+    hal::RecordQueue printed_{span(print_memory_)};
+    std::vector<std::uint8_t> gray_memory_;
+    std::vector<std::uint8_t> judge_memory_;
+    std::vector<std::uint8_t> sample_memory_;
+};
+
+// ---- Implementation ---------------------------------------------------------------
+
+template <class System>
+std::string LinuxWorld<System>::open() {
+    std::string problem = open_lines();
+    if (problem.empty()) problem = open_camera();
+    if (problem.empty()) problem = open_serial();
+    if (problem.empty()) lay_out();
+    return problem;
+}
+
+template <class System>
+std::string LinuxWorld<System>::open_camera() {
+    typename Camera::Frame frame;
+    static_cast<void>(keeper_.fetch(FramePolicy::every, 0, frame));
+    if (keeper_.streaming()) return "";
+    const Status fault = camera_.fault().status;
+    const bool absent = keeper_.trouble() == CameraTrouble::lost;
+    const bool sized = settings_.camera.width > 0 && settings_.camera.height > 0;
+    if (absent && sized && fault != Status::io_error) return "";
+    std::string problem = camera_fault();
+    if (camera_advice()[0] != '\0') problem += std::string("; ") + camera_advice();
+    if (absent && !sized) problem += "; with width and height in [camera] the daemon would wait for it";
+    return problem;
+}
+
+template <class System>
+std::string LinuxWorld<System>::open_lines() {
+    const Settings::Lines& names = settings_.lines;
+    const bool triggered = settings_.trigger.source == TriggerSource::line;
+    if (names.chip.empty()) return triggered ? "[trigger] source = \"line\" wants a chip in [lines]" : "";
+    linux_port::GpioChip<System> chip(system_);
+    const auto complain = [&](const char* role, const char* line, const linux_port::Fault& fault) {
+        const char* const advice = linux_port::advice(fault);
+        return std::string(names.chip.c_str()) +
+               (line[0] != '\0' ? std::string(" line ") + line + " (" + role + ")" : "") + ": " + fault.call +
+               ": " + linux_port::reason(fault) +
+               (fault.about[0] != '\0' && fault.error != 0 ? std::string(": ") + fault.about : "") +
+               (advice[0] != '\0' ? std::string("; ") + advice : "");
+    };
+    if (chip.open(names.chip.c_str()) != Status::ok) return complain("", "", chip.fault());
+    const linux_port::LineLevel active =
+        names.active_low ? linux_port::LineLevel::low : linux_port::LineLevel::high;
+    linux_port::OutputLineOptions output;
+    output.active = active;
+    const struct {
+        const Text<63>& name;
+        const char* role;
+        Pin& pin;
+    } outputs[] = {{names.ready, "ready", ready_}, {names.busy, "busy", busy_},
+                   {names.valid, "valid", valid_}, {names.ok, "ok", ok_},
+                   {names.not_ok, "ng", not_ok_},  {names.alarm, "alarm", alarm_}};
+    for (const auto& each : outputs)
+        if (!each.name.empty() && each.pin.open(chip, each.name.c_str(), each.role, output) != Status::ok)
+            return complain(each.role, each.name.c_str(), each.pin.fault());
+    if (triggered) {
+        linux_port::InputLineOptions input;
+        input.active = active;
+        input.debounce_us = static_cast<std::uint32_t>(settings_.trigger.debounce_us);
+        if (settings_.trigger.line.empty()) return "[trigger] source = \"line\" wants its line";
+        if (trigger_.open(chip, settings_.trigger.line.c_str(), "trigger", input) != Status::ok)
+            return complain("trigger", settings_.trigger.line.c_str(), trigger_.fault());
+    }
+    const auto wired = [](Pin& pin) { return pin.is_open() ? &pin : nullptr; };
+    lines_ = Lines({wired(ready_), wired(busy_), wired(valid_), wired(ok_), wired(not_ok_), wired(alarm_)},
+                   {names.mode, names.pulse_ms * 1000, names.error_is_not_ok});
+    return "";
+}
+
+template <class System>
+std::string LinuxWorld<System>::open_serial() {
+    if (settings_.serial.device.empty()) return "";
+    link_.turn(now_us());
+    // One that is not there yet may be plugged in; one that another has will stay so.
+    const linux_port::Fault& fault = port_opening_.fault();
+    if (link_.open() || fault.error != EBUSY) return "";
+    return std::string(settings_.serial.device.c_str()) + ": " + fault.call + ": " +
+           linux_port::reason(fault) + "; " + linux_port::advice(fault);
+}
+
+template <class System>
+void LinuxWorld<System>::lay_out() {
+    const Size size = keeper_.streaming() ? opening_.size()
+                                          : Size{static_cast<int>(settings_.camera.width),
+                                                 static_cast<int>(settings_.camera.height)};
+    std::int64_t gray = 0;
+    // A camera that is not there yet may send any format.
+    for (int k = 1; k < hal::pixel_formats; ++k) {
+        const auto format = static_cast<hal::PixelFormat>(k);
+        if (keeper_.streaming() && format != opening_.format()) continue;
+        gray = std::max(gray, gray_frame_scratch(format, size));
+    }
+    std::int64_t judge = 0;
+    for (int number = 1; number <= jobs_.size(); ++number)
+        judge = std::max(judge, judge_scratch(size, jobs_[number].recipe));
+    gray_memory_.resize(static_cast<std::size_t>(gray));
+    judge_memory_.resize(static_cast<std::size_t>(judge));
+    sample_memory_.resize(static_cast<std::size_t>(size.area() + 64));
+}
+
+template <class System>
+Status LinuxWorld<System>::keep_sample(Span<const char> name, ImageView<const Gray8> picture) {
+    if (settings_.teach.folder.empty()) return Status::unsupported;
+    const Result<std::ptrdiff_t> bytes = encode_pnm(picture, span(sample_memory_));
+    if (!bytes) return bytes.status();
+    linux_port::Text<400> path(settings_.teach.folder.c_str());
+    path.add("/").add(name).add("-");
+    linux_port::Text<400> beside = path;
+    // The time of the system tells samples of different days apart.
+    path.add_number(static_cast<std::uint64_t>(now_us())).add(".pgm");
+    beside.add("new");
+    linux_port::Fault fault;
+    return linux_port::replace_file(system_, settings_.teach.folder.c_str(), beside.c_str(), path.c_str(), {},
+                                    {sample_memory_.data(), *bytes}, fault);
+}
+
+template <class System>
+void LinuxWorld<System>::wait(std::int64_t until_us, int signals) {
+    const std::int64_t left_us = until_us - now_us();
+    if (left_us <= 0) return;
+    pollfd files[5] = {{signals, POLLIN, 0},
+                       {keeper_.streaming() ? camera_.file() : -1, POLLIN | POLLPRI, 0},
+                       {port_.file(), static_cast<short>(POLLIN | (link_.waiting() ? POLLOUT : 0)), 0},
+                       {trigger_.file(), POLLIN, 0},
+                       {printed_.waiting() > 0 ? 1 : -1, POLLOUT, 0}};
+    static_cast<void>(system_.poll(files, left_us));
+    if (printed_.waiting() > 0) static_cast<void>(printed_.pump(output_));
+}
+
+}  // namespace fovea::apps
