@@ -59,7 +59,7 @@ inline std::string beside(const std::string& file, const std::string& path) {
 /// Reads the settings and all jobs.
 inline DaemonFiles read_daemon_files(const std::string& path) {
     DaemonFiles files;
-    linux_port::FileStorage storage(std::size_t{1} << 20);
+    linux_port::FileStorage<> storage({}, std::size_t{1} << 20);
     const Result<Span<const std::uint8_t>> text = storage.load(path.c_str());
     if (!text) {
         files.problem = file_problem(path, text.status(), storage);
