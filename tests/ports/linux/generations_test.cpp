@@ -189,6 +189,37 @@ TEST_F(Generations, AreNotKeptByWhatIsNoFile) {
     EXPECT_EQ(entries(), 2);
 }
 
+/// A medium that does not give one of the files.
+struct BadSector : linux_port::Kernel {
+    const char* file = "";
+    int open(const char* path, int flags, unsigned mode = 0) {
+        return std::string(path) == file ? -EIO : Kernel::open(path, flags, mode);
+    }
+};
+
+TEST_F(Generations, ReplaceWhatCannotBeReadBeforeWhatIsDamaged) {
+    put("job.a", {1, 2, 3});
+    put("job.b", slot(8, {8}));
+    const std::string b = name("job.b");
+    Keeper blind(BadSector{{}, b.c_str()}, 10);
+    EXPECT_EQ(blind.storage.load(name("job").c_str()).status(), Status::io_error);
+    ASSERT_EQ(save(blind.storage, name("job"), {9}), Status::ok);
+    // The medium has come to itself, and an old generation must not come with it.
+    EXPECT_EQ(loaded(storage(), name("job")), StoredBytes{9});
+}
+
+TEST_F(Generations, FallBackFromWhatCannotBeRead) {
+    put("job.a", slot(7, {7}));
+    put("job.b", slot(8, {8}));
+    const std::string b = name("job.b");
+    Keeper blind(BadSector{{}, b.c_str()}, 10);
+    EXPECT_EQ(loaded(blind.storage, name("job")), StoredBytes{7});
+    EXPECT_TRUE(blind.storage.fell_back());
+    EXPECT_STREQ(blind.storage.problem(), "Input/output error");
+    ASSERT_EQ(save(blind.storage, name("job"), {9}), Status::ok);
+    EXPECT_EQ(loaded(storage(), name("job")), StoredBytes{9});
+}
+
 /// Quick: what a sync does is seen where power is cut.
 struct WithoutSync : linux_port::Kernel {
     int sync(int) { return 0; }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fovea/linux/gpio_chip.hpp>
 #include <support/failing_system.hpp>
@@ -15,9 +17,9 @@ struct GpioChip : testing::Test {
     GpioChip() {
         fake.chips = {{"gpiochip0", "9030000.pl061", std::vector<FakeGpio::Line>(8)},
                       {"gpiochip1", "pinctrl-bcm2711", std::vector<FakeGpio::Line>(58)},
-                      {"gpiochip2", "gpio-mockup-A", std::vector<FakeGpio::Line>(4)},
+                      {"gpiochip2", "gpio-mockup", std::vector<FakeGpio::Line>(4)},
                       {"gpiochip3", "gpio-mockup-B", std::vector<FakeGpio::Line>(4)},
-                      {"gpiochip4", "gpio-mockup", std::vector<FakeGpio::Line>(4)}};
+                      {"gpiochip4", "gpio-mockup-A", std::vector<FakeGpio::Line>(4)}};
         fake.line(1, 17).name = "GPIO17";
         fake.line(1, 20).name = fake.line(1, 21).name = "LED";
         fake.line(1, 22).name = "5";
@@ -37,14 +39,20 @@ TEST_F(GpioChip, IsFoundByItsPathItsLabelOrItsName) {
     EXPECT_STREQ(chip.name(), "gpiochip0");
     ASSERT_EQ(chip.open("gpiochip3"), Status::ok);
     EXPECT_STREQ(chip.label(), "gpio-mockup-B");
-    ASSERT_EQ(chip.open("gpio-mockup"), Status::ok) << "a whole label before a part of others";
+    // A whole label before a part of others, in whatever order they are found.
+    ASSERT_EQ(chip.open("gpio-mockup"), Status::ok);
+    EXPECT_STREQ(chip.name(), "gpiochip2");
+    std::swap(fake.chips[2].label, fake.chips[4].label);
+    ASSERT_EQ(chip.open("gpio-mockup"), Status::ok);
     EXPECT_STREQ(chip.name(), "gpiochip4");
     EXPECT_EQ(fake.files.size(), 1u);
 }
 
 TEST_F(GpioChip, IsNotGuessed) {
     EXPECT_EQ(chip.open("mockup-"), Status::undecided);
+    EXPECT_TRUE(fake.files.empty());
     EXPECT_EQ(chip.open("nothing"), Status::not_found);
+    EXPECT_TRUE(fake.files.empty());
     EXPECT_EQ(chip.open(""), Status::bad_argument);
     EXPECT_EQ(chip.open("/dev/gpiochip9"), Status::not_found);
     EXPECT_EQ(chip.fault().error, ENOENT);
