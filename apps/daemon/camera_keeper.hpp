@@ -105,6 +105,13 @@ public:
         return true;
     }
 
+    /// Something was plugged in: the schedule of a lost camera begins anew.
+    void hurry() {
+        if (streaming_) return;
+        tries_ = 0;
+        schedule(clock_.microseconds());
+    }
+
     CameraTrouble trouble() const { return trouble_; }
     /// True while frames are expected of it.
     bool streaming() const { return streaming_; }

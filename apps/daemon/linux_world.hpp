@@ -19,6 +19,7 @@
 #include <fovea/hal/record_queue.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/linux/device_identity.hpp>
+#include <fovea/linux/device_watch.hpp>
 #include <fovea/linux/fault.hpp>
 #include <fovea/linux/file_stream.hpp>
 #include <fovea/linux/gpio.hpp>
@@ -188,6 +189,7 @@ private:
     Pin alarm_{system_};
     linux_port::InputLine<System> trigger_{system_};
     Lines lines_{{}, {}};
+    linux_port::DeviceWatch<System> watch_{system_};
     linux_port::FileStream<System> output_{system_, 1};
     std::vector<std::uint8_t> print_memory_ = std::vector<std::uint8_t>(262144);
     std::vector<std::uint8_t> print_line_ = std::vector<std::uint8_t>(16384 + 1);
@@ -201,6 +203,8 @@ private:
 
 template <class System>
 std::string LinuxWorld<System>::open() {
+    // Without it a device that comes is found a little later.
+    static_cast<void>(watch_.open());
     std::string problem = open_lines();
     if (problem.empty()) problem = open_camera();
     if (problem.empty()) problem = open_serial();
@@ -317,12 +321,17 @@ template <class System>
 void LinuxWorld<System>::wait(std::int64_t until_us, int signals) {
     const std::int64_t left_us = until_us - now_us();
     if (left_us <= 0) return;
-    pollfd files[5] = {{signals, POLLIN, 0},
+    pollfd files[6] = {{signals, POLLIN, 0},
                        {keeper_.streaming() ? camera_.file() : -1, POLLIN | POLLPRI, 0},
                        {port_.file(), static_cast<short>(POLLIN | (link_.waiting() ? POLLOUT : 0)), 0},
                        {trigger_.file(), POLLIN, 0},
-                       {printed_.waiting() > 0 ? 1 : -1, POLLOUT, 0}};
+                       {printed_.waiting() > 0 ? 1 : -1, POLLOUT, 0},
+                       {watch_.file(), POLLIN, 0}};
     static_cast<void>(system_.poll(files, left_us));
+    if (files[5].revents != 0 && watch_.take()) {
+        keeper_.hurry();
+        link_.hurry();
+    }
     if (printed_.waiting() > 0) static_cast<void>(printed_.pump(output_));
 }
 

@@ -41,6 +41,11 @@ public:
         if (got != Status::ok) lose(got, now_us);
     }
 
+    /// Something was plugged in: a port that is lost is looked for at once.
+    void hurry() {
+        if (!open_) next_try_us_ = 0;
+    }
+
     /// The next line that came; empty if none is complete. malformed and capacity_exceeded for what was no
     /// line.
     Result<Span<const char>> next_line() { return reader_.next(); }

@@ -108,6 +108,15 @@ public:
     std::ptrdiff_t entries(int folder, Span<std::uint8_t> into) {
         return fails("entries") ? -script_->error : inner_.entries(folder, into);
     }
+    int begin_watch() {
+        if (fails("begin_watch")) return -script_->error;
+        const int file = inner_.begin_watch();
+        if (file >= 0) script_->open_files.insert(file);
+        return file;
+    }
+    int watch(int file, const char* folder, std::uint32_t what) {
+        return fails("watch") ? -script_->error : inner_.watch(file, folder, what);
+    }
     int socket(int family, int type) {
         if (fails("socket")) return -script_->error;
         const int file = inner_.socket(family, type);

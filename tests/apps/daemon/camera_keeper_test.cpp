@@ -92,6 +92,25 @@ TEST(CameraKeeper, LooksForALostCameraMoreAndMoreSeldom) {
     EXPECT_EQ(bench.events, Words({"camera_lost", "none"}));
 }
 
+TEST(CameraKeeper, HurriesWhereSomethingWasPluggedIn) {
+    Bench bench;
+    bench.run(200000);
+    bench.device.unplugged = true;
+    bench.run(20000000);
+    bench.opens = 0;
+    bench.keeper.hurry();
+    bench.run(5000);
+    EXPECT_EQ(bench.opens, 1);
+    bench.run(350000);  // the schedule from its beginning
+    EXPECT_EQ(bench.opens, 3);
+    bench.device.unplugged = false;
+    bench.keeper.hurry();
+    EXPECT_GE(bench.run(100000), 1);
+    bench.keeper.hurry();  // nothing to a camera that streams
+    EXPECT_GE(bench.run(100000), 2);
+    EXPECT_EQ(bench.opens, 4);
+}
+
 TEST(CameraKeeper, FindsACameraThatIsBackAtOnce) {
     Bench bench;
     bench.run(200000);

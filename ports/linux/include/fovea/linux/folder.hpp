@@ -41,9 +41,11 @@ Status each_entry(System& system, const char* folder, Fault& fault, Visit visit)
         for (std::ptrdiff_t at = 0; status == Status::ok && at + name_at < got; at += length) {
             std::memcpy(&length, records + at + 16, 2);
             // Behind the zero lies whatever was there.
-            if (length <= name_at || length > got - at) break;
-            if (std::memchr(records + at + name_at, 0, static_cast<std::size_t>(length - name_at)) == nullptr)
+            if (length <= name_at || length > got - at ||
+                std::memchr(records + at + name_at, 0, static_cast<std::size_t>(length - name_at)) == nullptr) {
+                status = unusable(fault, "getdents64", Status::io_error, "records that cannot be read");
                 break;
+            }
             const char* const name = reinterpret_cast<const char*>(records + at + name_at);
             if (std::strcmp(name, ".") != 0 && std::strcmp(name, "..") != 0) status = visit(name);
         }

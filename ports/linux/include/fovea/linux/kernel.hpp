@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/file.h>
+#include <sys/inotify.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -80,6 +81,12 @@ public:
     /// Records of a folder as getdents64(2) describes them; 0 at its end.
     std::ptrdiff_t entries(int folder, Span<std::uint8_t> into) {
         return answer(::syscall(SYS_getdents64, folder, into.data(), into.size()));
+    }
+
+    /// A file that can be read when something of what is watched happens to a folder; see inotify(7).
+    int begin_watch() { return answer(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)); }
+    int watch(int file, const char* folder, std::uint32_t what) {
+        return answer(::inotify_add_watch(file, folder, what));
     }
 
     int socket(int family, int type) { return answer(::socket(family, type, 0)); }
