@@ -259,8 +259,8 @@ TEST_F(Generations, KeepTheOldOrTheNewInEverySweep) {
         },
         [&](const SystemScript& script) {
             ASSERT_TRUE(script.all_given_back()) << script.fail_at;
-            ASSERT_EQ(claim, "") << script.names[static_cast<std::size_t>(script.fail_at) - 1] << " "
-                                 << script.fail_at << " " << script.error << " " << script.for_ever;
+            ASSERT_EQ(claim, "") << script.failed << " " << script.fail_at << " " << script.error << " "
+                                 << script.for_ever;
             ASSERT_FALSE(!script.for_ever && files::exists(job + ".new")) << script.fail_at;
         });
     RecordProperty("runs", runs);

@@ -42,7 +42,8 @@ Status each_entry(System& system, const char* folder, Fault& fault, Visit visit)
             std::memcpy(&length, records + at + 16, 2);
             // Behind the zero lies whatever was there.
             if (length <= name_at || length > got - at ||
-                std::memchr(records + at + name_at, 0, static_cast<std::size_t>(length - name_at)) == nullptr) {
+                std::memchr(records + at + name_at, 0, static_cast<std::size_t>(length - name_at)) ==
+                    nullptr) {
                 status = unusable(fault, "getdents64", Status::io_error, "records that cannot be read");
                 break;
             }
