@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <string>
 
 namespace fovea::test {
@@ -32,11 +33,13 @@ public:
     bool say(const std::string& text) {
         return ::write(file_, text.data(), text.size()) == static_cast<ssize_t>(text.size());
     }
-    /// What has arrived; waits for it a little, for it goes through a queue of the kernel.
-    std::string heard(int patience_ms = 100) {
+    /// What has arrived: all there is, and as many bytes at least as a test expects. They go through a queue
+    /// of the kernel, for which it waits up to two seconds; where nothing is expected, a little.
+    std::string heard(std::size_t expected = 0) {
         std::string all;
         char some[4096];
-        for (pollfd one = {file_, POLLIN, 0}; ::poll(&one, 1, all.empty() ? patience_ms : 5) > 0;) {
+        const auto patience_ms = [&] { return all.size() < expected ? 2000 : expected == 0 ? 20 : 0; };
+        for (pollfd one = {file_, POLLIN, 0}; ::poll(&one, 1, patience_ms()) > 0;) {
             const ssize_t got = ::read(file_, some, sizeof some);
             if (got <= 0) break;
             all.append(some, static_cast<std::size_t>(got));

@@ -28,11 +28,12 @@ Span<const std::uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), static_cast<std::ptrdiff_t>(text.size())};
 }
 
-/// What arrives within a tenth of a second.
+/// So many bytes, or what arrives within two seconds.
 template <class Port>
-std::string heard(Port& port) {
+std::string heard(Port& port, std::size_t expected) {
     std::string all;
-    for (pollfd one = {port.file(), POLLIN, 0}; ::poll(&one, 1, all.empty() ? 100 : 5) > 0;) {
+    pollfd one = {port.file(), POLLIN, 0};
+    while (all.size() < expected && ::poll(&one, 1, 2000) > 0) {
         std::uint8_t some[1000];
         const Result<int> got = port.read(some);
         if (!got || *got == 0) break;
@@ -56,10 +57,10 @@ TEST_F(SerialPort, PassesEveryByteAsItIs) {
     std::string all;
     for (int byte = 0; byte < 256; ++byte) all += static_cast<char>(byte);
     EXPECT_EQ(port.write(bytes_of(all)).value(), 256);
-    EXPECT_EQ(pty.heard(), all);
+    EXPECT_EQ(pty.heard(256), all);
     ASSERT_TRUE(pty.say(all));
-    EXPECT_EQ(heard(port), all);
-    EXPECT_EQ(pty.heard(0), "") << "no echo";
+    EXPECT_EQ(heard(port, 256), all);
+    EXPECT_EQ(pty.heard(), "") << "no echo";
 }
 
 TEST_F(SerialPort, SaysThatNothingHasArrived) {
@@ -83,10 +84,17 @@ TEST_F(SerialPort, SetsAnyBaudRate) {
 }
 
 TEST_F(SerialPort, DropsWhatHadArrivedBefore) {
-    ASSERT_TRUE(pty.say("stale"));
+    // It goes through a queue of the kernel, and has arrived when another program could read it.
+    const int other = ::open(pty.path(), O_RDWR | O_NOCTTY);
+    ASSERT_TRUE(pty.say("stale\n"));
+    pollfd one = {other, POLLIN, 0};
+    ASSERT_EQ(::poll(&one, 1, 2000), 1);
+    // The terminal has said it again, as terminals do.
+    EXPECT_EQ(pty.heard(7), "stale\r\n");
     ASSERT_EQ(port.open(pty.path()), Status::ok);
     ASSERT_TRUE(pty.say("new"));
-    EXPECT_EQ(heard(port), "new");
+    EXPECT_EQ(heard(port, 3), "new");
+    ::close(other);
 }
 
 /// Writes down what it is asked.
@@ -171,7 +179,7 @@ TEST_F(SerialPort, HasOneOwner) {
     }
     // The first one goes on, and gives it free for another.
     EXPECT_EQ(port.write(bytes_of("still")).value(), 5);
-    EXPECT_EQ(pty.heard(), "still");
+    EXPECT_EQ(pty.heard(5), "still");
     port.close();
     EXPECT_EQ(second.open(pty.path()), Status::ok);
 }
@@ -232,11 +240,15 @@ TEST_F(SerialPort, SendsWholeRecordsToAPeerThatDoesNotRead) {
     EXPECT_TRUE(queue.begun() || queue.waiting() > 0);
     std::string all;
     for (int turn = 0; queue.waiting() > 0 && turn < 1000; ++turn) {
-        all += pty.heard(20);
+        all += pty.heard(1);
         EXPECT_EQ(queue.pump(port), Status::ok);
     }
-    all += pty.heard();
-    ASSERT_FALSE(all.empty());
+    const std::string newest = "\n" + std::to_string(given) + ":" + std::string(given % 90, 'x') + "\n";
+    const auto ends = [&] {
+        return all.size() > newest.size() && all.substr(all.size() - newest.size()) == newest;
+    };
+    for (std::string more = "?"; !ends() && !more.empty(); all += more) more = pty.heard(1);
+    ASSERT_TRUE(ends());
     EXPECT_EQ(all.back(), '\n');
     std::uint32_t last = 0, arrived = 0;
     for (std::size_t at = 0; at < all.size();) {
@@ -269,7 +281,7 @@ TEST_F(SerialPort, SendsOnlyWholeRecordsToTheNextPeer) {
     Pty other;
     ASSERT_EQ(port.open(other.path()), Status::ok);
     EXPECT_EQ(queue.pump(port), Status::ok);
-    EXPECT_EQ(other.heard(), "next\n");
+    EXPECT_EQ(other.heard(5), "next\n");
 }
 
 /// F15: a peer that never stops costs a turn no more than its share.
@@ -282,6 +294,8 @@ TEST_F(SerialPort, IsReadByTheLine) {
     for (std::size_t said = 0; lines < 5000 && turns < 20000; ++turns) {
         const ssize_t went = ::write(pty.file(), flood.data() + said, flood.size() - said);
         if (went > 0) said += static_cast<std::size_t>(went);
+        pollfd one = {port.file(), POLLIN, 0};
+        ::poll(&one, 1, 2000);
         ASSERT_EQ(reader.fill(port), Status::ok);
         int here = 0;
         for (Result<Span<const char>> line = reader.next(); line.ok() && !line->empty();
@@ -316,11 +330,11 @@ TEST(SerialPortSweep, EndsWithAStatusAndGivesAllBack) {
             check(port.baud() == 115200, "open: baud");
             static_cast<void>(pty.say("in"));
             pollfd one = {port.file(), POLLIN, 0};
-            ::poll(&one, 1, 100);
+            ::poll(&one, 1, 2000);
             std::uint8_t some[3] = {'?', '?', '?'};
             const Result<int> got = port.read(some);
             const bool untouched = some[0] == '?' && some[1] == '?';
-            check(got.ok() && *got == 2 ? some[0] == 'i' && some[1] == 'n' : untouched, "read: untouched");
+            check(got.ok() && *got > 0 ? some[0] == 'i' : untouched, "read: untouched");
             check(got.ok() || port.fault().status == got.status(), "read: a fault");
             if (!got) lost += got.status() == Status::device_lost;
             const Result<int> wrote = port.write(bytes_of("out"));
@@ -328,7 +342,7 @@ TEST(SerialPortSweep, EndsWithAStatusAndGivesAllBack) {
                 wrote.ok() || port.fault().status == wrote.status() || wrote.status() == Status::device_lost,
                 "write: a fault");
             const bool sent = wrote.ok() && *wrote == 3;
-            check(pty.heard(sent ? 100 : 0) == (sent ? "out" : ""), "write: what was said");
+            check(pty.heard(sent ? 3 : 0) == (sent ? "out" : ""), "write: what was said");
             port.close();
             check(!port.is_open(), "close");
             good += got.ok() && wrote.ok();
