@@ -14,7 +14,7 @@ namespace {
 /// Files of the system, standard output and standard error.
 class LinuxIo {
 public:
-    using Storage = fovea::linux_port::FileStorage;
+    using Storage = fovea::linux_port::FileStorage<>;
 
     Storage& storage() { return storage_; }
     void print(const std::string& text) {

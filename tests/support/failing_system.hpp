@@ -4,6 +4,8 @@
 // back.
 #pragma once
 
+#include <linux/gpio.h>
+
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -63,7 +65,12 @@ public:
         return fails("write") ? -script_->error : inner_.write(file, bytes);
     }
     int ioctl(int file, unsigned long request, void* argument) {
-        return fails("ioctl") ? -script_->error : inner_.ioctl(file, request, argument);
+        if (fails("ioctl")) return -script_->error;
+        const int got = inner_.ioctl(file, request, argument);
+        // This one opens a file.
+        if (request == GPIO_V2_GET_LINE_IOCTL && got >= 0)
+            script_->open_files.insert(static_cast<gpio_v2_line_request*>(argument)->fd);
+        return got;
     }
     int poll(Span<pollfd> files, std::int64_t patience_us) {
         return fails("poll") ? -script_->error : inner_.poll(files, patience_us);

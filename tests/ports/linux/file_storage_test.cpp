@@ -12,6 +12,7 @@
 #include <thread>
 
 #include <fovea/linux/file_storage.hpp>
+#include <support/failing_system.hpp>
 #include <support/storage_contract.hpp>
 
 namespace fovea::test {
@@ -28,7 +29,7 @@ protected:
     }
     ~InAFolder() override { files::remove_all(folder_); }
 
-    linux_port::FileStorage& storage() { return storage_; }
+    linux_port::FileStorage<>& storage() { return storage_; }
     std::string name(const std::string& text) const { return (folder_ / text).string(); }
     /// How many entries the folder has: a file that was replaced leaves nothing beside it.
     std::ptrdiff_t entries() const {
@@ -37,7 +38,7 @@ protected:
 
 private:
     files::path folder_;
-    linux_port::FileStorage storage_;
+    linux_port::FileStorage<> storage_;
 };
 
 INSTANTIATE_TYPED_TEST_SUITE_P(FileStorage, StorageContract, InAFolder, ByContract);
@@ -100,7 +101,7 @@ TEST_F(FileStorage, SaysThatTheMediumCannotBeRead) {
 TEST_F(FileStorage, TakesTheLargestFileAndNoLargerOne) {
     for (const std::size_t most : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{65535},
                                    std::size_t{65536}, std::size_t{100000}, std::size_t{131072}}) {
-        linux_port::FileStorage limited(most);
+        linux_port::FileStorage<> limited({}, most);
         ASSERT_EQ(save(limited, name("a"), StoredBytes(most, 3)), Status::ok);
         EXPECT_EQ(loaded(limited, name("a")).size(), most);
         ASSERT_EQ(save(limited, name("a"), StoredBytes(most + 1, 3)), Status::ok);
@@ -139,12 +140,66 @@ TEST_F(FileStorage, ReadsAPipeToItsEnd) {
     const StoredBytes bytes(200000, 5);
     // A pipe holds less than that, so both ends wait for each other again and again.
     std::thread writer([&] {
-        linux_port::FileStorage other;
+        linux_port::FileStorage<> other;
         EXPECT_EQ(save(other, pipe, bytes), Status::ok);
     });
     EXPECT_TRUE(loaded(storage(), pipe) == bytes);
     writer.join();
     EXPECT_FALSE(files::is_regular_file(pipe)) << "a pipe is written to, not replaced";
+}
+
+/// A folder, or a file system, that cannot be synced, as an errno says.
+struct UnsyncedFolder : linux_port::Kernel {
+    int error = 0;
+    int sync(int file) {
+        struct stat what {};
+        return ::fstat(file, &what) == 0 && S_ISDIR(what.st_mode) ? -error : 0;
+    }
+};
+
+TEST_F(FileStorage, SaysThatItsFolderIsNotSafe) {
+    for (const int error : {EIO, ENOSPC, EROFS}) {
+        linux_port::FileStorage unsafe(UnsyncedFolder{{}, error});
+        EXPECT_EQ(save(unsafe, name("a"), {static_cast<std::uint8_t>(error)}), Status::io_error);
+        EXPECT_STREQ(unsafe.fault().call, "fsync of the folder");
+        EXPECT_EQ(unsafe.fault().error, error);
+        EXPECT_EQ(loaded(storage(), name("a")), StoredBytes{static_cast<std::uint8_t>(error)});
+    }
+    for (const int error : {EINVAL, ENOSYS}) {
+        linux_port::FileStorage odd(UnsyncedFolder{{}, error});
+        EXPECT_EQ(save(odd, name("a"), {1}), Status::ok) << error;
+    }
+}
+
+TEST_F(FileStorage, KeepsTheOldOrTheNewInEverySweep) {
+    const std::string file = name("a");
+    const StoredBytes old(100, 1), fresh(70000, 2);
+    std::string claim;
+    int ok = 0;
+    const int runs = sweep(
+        UnsyncedFolder{}, {EINTR, EIO, ENOSPC, EROFS, EDQUOT, EACCES, EMFILE, ENODEV, EINVAL},
+        [&](auto failing) {
+            linux_port::FileStorage sound(UnsyncedFolder{});
+            linux_port::FileStorage swept(failing);
+            if (save(sound, file, old) != Status::ok) claim = "set up";
+            const Status saved = save(swept, file, fresh);
+            if (saved != Status::ok && swept.fault().status != saved) claim = "no fault";
+            ok += saved == Status::ok;
+            const StoredBytes now = loaded(sound, file);
+            if (now != fresh && (saved == Status::ok || now != old)) claim = "other bytes";
+            const Result<Span<const std::uint8_t>> again = swept.load(file.c_str());
+            if (again ? StoredBytes(again->begin(), again->end()) != now
+                      : swept.fault().status != again.status())
+                claim = "loaded other bytes";
+        },
+        [&](const SystemScript& script) {
+            ASSERT_TRUE(script.all_given_back()) << script.fail_at;
+            ASSERT_EQ(claim, "") << script.fail_at << " " << script.error << " " << script.for_ever;
+            ASSERT_FALSE(!script.for_ever && entries() != 1) << script.fail_at;
+        });
+    RecordProperty("runs", runs);
+    EXPECT_GE(runs, 200);
+    EXPECT_GT(ok, 100);
 }
 
 }  // namespace
