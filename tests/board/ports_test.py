@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Proves the Linux ports on the kernel's real drivers: ports_test.py PROGRAMS [--figures FILE] [WORD...]
+
+PROGRAMS is a folder with the programs *_on_board and usb_camera, compiled for the board. Each case boots a board
+that runs some of them, and wants every check to hold. What they measured goes to FILE, sorted, a figure a line:
+times are right where each board has a processor to itself. With WORDS only cases whose names hold one.
+"""
+import argparse
+import re
+import sys
+from pathlib import Path
+
+import proof_lines
+from cases import case, run_cases, same
+from emulated_board import EmulatedBoard
+
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("programs", type=Path)
+parser.add_argument("--figures", type=Path)
+parser.add_argument("--at-once", type=int, default=2, metavar="BOARDS")
+parser.add_argument("words", nargs="*")
+options = parser.parse_intermixed_args()
+figures = {}
+
+
+def program(name):
+    return {f"/test/{name}": options.programs / name}
+
+
+def take(board, prefix=""):
+    """The board's end, the figures of what ran on it, and all that it said."""
+    status = board.wait()
+    said, complaints = (stream.everything().decode(errors="replace") for stream in (board.stdout, board.stderr))
+    try:
+        if board.trouble:
+            raise AssertionError(board.trouble)
+        found = proof_lines.figures(status, said, prefix)
+    except AssertionError as error:
+        raise AssertionError(f"{error}\n{complaints}") from None
+    note(found)
+    return said
+
+
+def note(found):
+    for name, value in found.items():
+        if figures.setdefault(name, value) is not value:
+            raise AssertionError(f"another case has the figure {name}")
+
+
+def prove(command, files, prefix="", **board_options):
+    with EmulatedBoard(command, files=files, seconds=120, **board_options) as board:
+        return take(board, prefix)
+
+
+@case
+def faults_of_a_webcam():
+    prove(["/test/camera_on_board", "faults"], program("camera_on_board"), cameras=1)
+
+
+@case
+def the_camera_port_on_a_webcam():
+    prove(["/test/camera_on_board", "negotiation", "sweep", "latest"], program("camera_on_board"), cameras=1)
+
+
+@case
+def the_camera_port_on_an_input_for_video_signals():
+    prove(["sh", "-c", "/test/camera_on_board signal && /test/pictures_on_board"],
+          {**program("camera_on_board"), **program("pictures_on_board")}, cameras=1, loop=True)
+
+
+@case
+def pictures_through_a_multi_planar_driver():
+    prove(["/test/pictures_on_board"], program("pictures_on_board"), "multi-planar, ", cameras=1, loop=True,
+          vivid="multiplanar=2")
+
+
+@case
+def the_camera_port_on_usb_cameras():
+    prove(["/test/usb_camera_on_board", "/test/usb_camera", "modes", "identity", "controls", "damaged",
+           "unplugging"], {**program("usb_camera_on_board"), **program("usb_camera")},
+          modules=["vhci-hcd", "uvcvideo"])
+
+
+PRESSES = 8
+BESIDE_A_PEER = f"""
+ustreamer -d /dev/video0 -m YUYV -r 320x180 -f 30 --host 127.0.0.1 --perf --no-log-colors > /log 2>&1 &
+until grep -q 'Encoded frame' /log; do sleep 0.1; done
+for button in Disconnect "Inject Fatal Streaming Error"; do
+  for time in $(seq {PRESSES}); do
+    /test/camera_on_board press "$button"
+    sleep 0.7
+    grep -E 'ERROR|A new second has come; captured_fps=0' /log
+    : > /log
+  done
+done
+kill $!
+wait $!
+exec /test/camera_on_board recovery
+"""
+
+
+@case
+def recovery_beside_that_of_ustreamer():
+    """From its first complaint to its first frame, by its own log; ours from the status to the frame."""
+    said = prove(["sh", "-c", BESIDE_A_PEER], program("camera_on_board"), "beside ustreamer: ", cameras=1,
+                 packages=["ustreamer"])
+    for button, what in (("Disconnect", "a plug pulled"), ("Inject Fatal Streaming Error", "a broken stream")):
+        times = []
+        for part in said.split(f"ok {button}\n")[1:]:
+            part = part.split("\nok ")[0]
+            lost, back = (re.search(rf"{word} *\[(\d+\.\d+) .*", part) for word in ("ERROR", "PERF"))
+            times.append(round(1000 * (float(back[1]) - float(lost[1]))))
+        same(len(times), PRESSES)
+        times.sort()
+        note({f"ustreamer: from {what} to the next frame, median of {PRESSES}": f"{times[PRESSES // 2]} ms",
+              f"ustreamer: from {what} to the next frame, the most": f"{times[-1]} ms"})
+
+
+if __name__ == "__main__":
+    status = run_cases("Linux ports on the emulated board", options.words, options.at_once)
+    if options.figures:
+        options.figures.write_text("".join(f"{name} = {value}\n" for name, value in sorted(figures.items())))
+    sys.exit(status)
