@@ -7,7 +7,9 @@ times are right where each board has a processor to itself. With WORDS only case
 """
 import argparse
 import re
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import proof_lines
@@ -79,6 +81,47 @@ def the_camera_port_on_usb_cameras():
     prove(["/test/usb_camera_on_board", "/test/usb_camera", "modes", "identity", "controls", "damaged",
            "unplugging"], {**program("usb_camera_on_board"), **program("usb_camera")},
           modules=["vhci-hcd", "uvcvideo"])
+
+
+def answer(board, name, act):
+    """Waits until the program is ready for that, does it, and says so."""
+    while (line := board.stdout.line()) != f"ready {name}":
+        if line is None:
+            return
+    act()
+    board.process.stdin.write(b"done\n")
+    board.process.stdin.flush()
+
+
+def toggle(pins, line, count, apart_s, level=1):
+    for _ in range(count):
+        pins.drive(line, level)
+        level = 1 - level
+        time.sleep(apart_s)
+
+
+def ping(pins, level):
+    pins.drive(2, level)
+    if not pins.wait_for(5, level):
+        raise AssertionError("an edge was not answered")
+
+
+@case
+def lines_of_a_gpio_chip():
+    parts = ["busy", "names", "sweep", "outputs", "inputs", "burst", "levels", "debounce"]
+    with EmulatedBoard(["/test/lines_on_board", *parts], files=program("lines_on_board"),
+                       modules=["gpio-keys", "gpio-sim"], stdin=subprocess.PIPE) as board:
+        seen = []
+        # Only from here on, for QEMU waits for who does not read what its pins do.
+        answer(board, "outputs", lambda: board.pins.changes())
+        answer(board, "outputs were set", lambda: seen.extend(board.pins.changes()))
+        answer(board, "inputs", lambda: [ping(board.pins, level) for level in 100 * [1, 0]])
+        answer(board, "burst", lambda: toggle(board.pins, 2, 100, 0.005))
+        answer(board, "levels", lambda: toggle(board.pins, 4, 4, 0.02))
+        answer(board, "debounce", lambda: toggle(board.pins, 7, 7, 0.001))
+        take(board)
+    # One is low, and then active; the other is high until it is.
+    same(seen, [(6, 1), (5, 1), (5, 0), (5, 1), (6, 0), (6, 1), (5, 0)])
 
 
 PRESSES = 8
