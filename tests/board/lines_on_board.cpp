@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The lines of a GPIO chip on the kernel's drivers: the board's PL061, whose other ends the host drives and sees,
-// and chips of gpio-sim. It prints "ready NAME" where the host is to do something, and goes on with a line from it.
+// The lines of a GPIO chip on the kernel's drivers: the board's PL061, whose other ends the host drives and
+// sees, and a chip of gpio-sim. It prints "ready NAME" where the host is to do something, and goes on with a
+// line from it.
 // usage: lines_on_board outputs|inputs|burst|levels|debounce|busy|names|sweep...
 #include <sys/stat.h>
 
@@ -75,8 +76,8 @@ void outputs(Proof& proof) {
     await_host();
 }
 
-/// 200 edges, each answered by an output, which the host waits for: a chip merges edges that come faster than its
-/// interrupts are served, and a busy host serves them late.
+/// 200 edges, each answered by an output, which the host waits for: a chip merges edges that come faster than
+/// its interrupts are served, and a busy host serves them late.
 void inputs(Proof& proof) {
     GpioChip chip;
     if (!open_pl061(proof, chip)) return;

@@ -124,6 +124,63 @@ def lines_of_a_gpio_chip():
     same(seen, [(6, 1), (5, 1), (5, 0), (5, 1), (6, 0), (6, 1), (5, 0)])
 
 
+def record(number):
+    return f"record {number:06d} " + number * 37 % 90 * chr(ord("a") + number % 26)
+
+
+def read_records(line, last):
+    """Their numbers up to the last, each of which must be whole; what comes before the first is another part's."""
+    line.settimeout(20)
+    text = ""
+    while record(last) + "\n" not in text:
+        text += line.recv(65536).decode()
+    numbers = []
+    for entry in text[text.index("record "):].splitlines():
+        numbers.append(int(entry.split(" ")[1]))
+        same(entry, record(numbers[-1]))
+    return numbers
+
+
+def exchange(board, line):
+    """The part "records"."""
+    def act():
+        same(read_records(line, 99), list(range(100)))
+        line.sendall(bytes(range(256)))
+    answer(board, "records", act)
+
+
+@case
+def a_serial_port_whose_reader_stops():
+    parts = ["/dev/ttyS0", "sweep", "owner", "records", "blocked"]
+    with EmulatedBoard(["/test/serial_on_board", *parts], files=program("serial_on_board"), serial=["socket"],
+                       stdin=subprocess.PIPE) as board:
+        exchange(board, board.serial[0])
+        numbers = []
+        answer(board, "blocked", lambda: numbers.extend(read_records(board.serial[0], 999)))
+        said = take(board)
+    dropped = int(re.search(r"^dropped (\d+) of 1000$", said, re.M)[1])
+    same((numbers, len(numbers) + dropped), (sorted(set(numbers)), 1000))
+    note({"F14: records of 1000 dropped while nobody reads": str(dropped)})
+
+
+@case
+def a_usb_serial_adapter_that_is_pulled():
+    parts = ["usb:0403:6001", "sweep", "owner", "records", "unplugging"]
+    with EmulatedBoard(["/test/serial_on_board", *parts], files=program("serial_on_board"), usb_serial=["socket"],
+                       stdin=subprocess.PIPE) as board:
+        line = board.usb_serial[0]
+        exchange(board, line)
+        for cycle in range(10):
+            def pull():
+                if cycle > 0:
+                    same(read_records(line, cycle - 1), [cycle - 1])
+                board.unplug_usb_serial(0)
+            answer(board, "to be pulled", pull)
+            answer(board, "to be plugged in", lambda: board.plug_usb_serial(0))
+        answer(board, "records of 10 cycles", lambda: same(read_records(line, 9), [9]))
+        take(board)
+
+
 PRESSES = 8
 BESIDE_A_PEER = f"""
 ustreamer -d /dev/video0 -m YUYV -r 320x180 -f 30 --host 127.0.0.1 --perf --no-log-colors > /log 2>&1 &
