@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The serial port on the kernel's drivers: a 16550, and a USB adapter that is pulled. At the other end the host
-// reads records, or does not. It prints "ready NAME" where the host is to do something, and goes on with a line
-// from it.
+// The serial port on the kernel's drivers: a 16550, and a USB adapter that is pulled. At the other end the
+// host reads records, or does not. It prints "ready NAME" where the host is to do something, and goes on with
+// a line from it.
 // usage: serial_on_board PORT records|blocked|owner|sweep|unplugging...
 //        PORT  a path, or the identity of a USB adapter
 #include <signal.h>
