@@ -32,10 +32,10 @@ def tried(function):
     return not fault
 
 
-def run_cases(name, words):
-    """Two at a time; with words only those whose names hold one of them. The status of the program."""
+def run_cases(name, words, at_once=2):
+    """Some at a time; with words only those whose names hold one of them. The status of the program."""
     chosen = [function for function in cases if not words or any(word in function.__name__ for word in words)]
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor(at_once) as pool:
         verdicts = list(pool.map(tried, chosen))
     print(f"{name}: {sum(verdicts)} passed, {verdicts.count(False)} failed")
     return 0 if verdicts and all(verdicts) else 1

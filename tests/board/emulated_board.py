@@ -11,6 +11,7 @@ The words of a command are the board's own: a host's file goes in by files. In t
 of a busybox applet is the applet, whatever PATH says.
 """
 import re
+import shlex
 import shutil
 import signal
 import socket
@@ -82,17 +83,19 @@ class EmulatedBoard:
     ports       {TCP port of the board: port of 127.0.0.1}
     disks       images /dev/vda..
     stdin       as subprocess.Popen takes it, such as PIPE; the board.process.stdin is then the command's
+    resume      file of save_state(): goes on where another board with the same files and options was, on
+                disks of its own; what a file system had mounted is not looked at again
     seconds     until it is stopped, from its start
     """
 
     def __init__(self, command, *, files=None, fetch=None, packages=(), modules=(), cameras=0, loop=False,
                  vivid="", cpus=1, memory_mb=512, serial=(), usb_serial=(), ports=None, disks=(), stdin=None,
-                 seconds=60):
+                 resume=None, seconds=60):
         self.command, self.packages = list(command), list(packages)
         self.files, self.fetch = files or {}, fetch or {}
         self.cpus, self.memory_mb, self.seconds, self.stdin = cpus, memory_mb, seconds, stdin
         self.serial_ends, self.usb_serial_ends = list(serial), list(usb_serial)
-        self.ports, self.disks = ports or {}, list(disks)
+        self.ports, self.disks, self.resume = ports or {}, list(disks), resume
         needed = ["virtio_pci", "virtio_console"]
         needed += ["virtio_blk"] if self.disks else []
         needed += ["virtio_net"] if self.ports else []
@@ -149,6 +152,9 @@ class EmulatedBoard:
         self.stdout, self.stderr = (Channel(self.folder / name, self) for name in ("stdout", "stderr"))
         self.serial = [self.far_end(f"serial{n}", end) for n, end in enumerate(self.serial_ends)]
         self.usb_serial = [self.far_end(f"usb_serial{n}", end) for n, end in enumerate(self.usb_serial_ends)]
+        if self.resume:
+            self.await_answer("query-status", "inmigrate", "paused")
+            self.machine("cont")
 
     def time_out(self):
         self.timed_out = True
@@ -158,6 +164,18 @@ class EmulatedBoard:
         """Cuts the power."""
         self.process.kill()
         self.process.wait()
+
+    def save_state(self, path):
+        """What the board has in its memory, for others to resume from; this one stands still from then on."""
+        self.machine("stop")
+        self.machine("migrate", uri=f"exec:cat > {shlex.quote(str(path))}")
+        self.await_answer("query-migrate", "active", "completed")
+
+    def await_answer(self, question, before, after):
+        while (status := self.machine(question).get("status", before)) != after:
+            if status not in (before, "setup", "device"):
+                raise BoardError(f"the state of a board: {status}")
+            time.sleep(LATENCY_S)
 
     def wait(self):
         """The command's status, 128 + N for signal N; 124 if time ran out, 125 if none: see trouble."""

@@ -1,4 +1,6 @@
 """The machine that QEMU is to be for a board."""
+import shlex
+
 from debian import BoardError
 
 # Without its own tests the kernel's cryptography starts sooner; a panic ends QEMU.
@@ -34,6 +36,7 @@ def command(board, kernel):
     for number, disk in enumerate(board.disks):
         options += ["-drive", f"if=none,id=disk{number},format=raw,cache=writeback,file={disk}"]
         options += ["-device", f"virtio-blk-pci,drive=disk{number}"]
+    options += ["-incoming", f"exec:cat {shlex.quote(str(board.resume))}"] if board.resume else []
     return ["qemu-system-aarch64", *map(str, options)]
 
 

@@ -717,7 +717,28 @@ def target_new_board(folder):
 
 
 target_alarms = [target_binary, target_chip, target_pins, target_watchdog, target_call_depth, target_firmware, target_new_board]
-board_alarms = [board_binary]
+
+
+def board_proofs(folder):
+    """ports_test.py must see a check that fails, and a program that proves nothing."""
+    def says(text, status=0):
+        return [PROJECT / "tests/board/proof_lines.py", "sh", "-c", f"printf '{text}'; exit {status}"]
+
+    good = "ok a\\nfigure b = 3 us\\n1 checks, 0 failed\\n"
+    yield "a program without a fault", says(good), None
+    yield "a check that fails", says("ok a\\nFAILED b: 1, not 2\\n2 checks, 1 failed\\n"), "FAILED b: 1, not 2"
+    yield "a status", says(good, 1), "status 1"
+    yield "nothing", says(""), "0 of 0 checks passed"
+    yield "no check", says("0 checks, 0 failed\\n"), "0 of 0 checks passed"
+    yield "an early end", says("ok a\\n"), "1 of 0 checks passed"
+    yield "lines that are missing", says("ok a\\n2 checks, 0 failed\\n"), "1 of 2 checks passed"
+    yield "a figure twice", says(f"figure b = 4 us\\n{good}"), "two figures have the name b"
+    program = write(folder, {"pictures_on_board": "#!/bin/sh\necho FAILED planted; echo 1 checks, 1 failed\n"}) / "pictures_on_board"
+    program.chmod(0o755)
+    yield "on a board", [PROJECT / "tests/board/ports_test.py", folder, "multi_planar"], "FAILED planted"
+
+
+board_alarms = [board_binary, board_proofs]
 
 
 # ---- All of them --------------------------------------------------------------------------
