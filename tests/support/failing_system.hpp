@@ -95,6 +95,9 @@ public:
     int rename(const char* from, const char* to) {
         return fails("rename") ? -script_->error : inner_.rename(from, to);
     }
+    int make_folder(const char* path, unsigned mode) {
+        return fails("make_folder") ? -script_->error : inner_.make_folder(path, mode);
+    }
     int remove(const char* path) { return fails("remove") ? -script_->error : inner_.remove(path); }
     int about(const char* path, struct stat& what) {
         return fails("about") ? -script_->error : inner_.about(path, what);

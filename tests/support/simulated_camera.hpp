@@ -251,6 +251,7 @@ public:
     std::ptrdiff_t write(int, Span<const std::uint8_t>) { return -EINVAL; }
     int sync(int) { return -EINVAL; }
     int rename(const char*, const char*) { return -EINVAL; }
+    int make_folder(const char*, unsigned) { return -EINVAL; }
     int remove(const char*) { return -EINVAL; }
     int about(const char*, struct stat&) { return -ENOENT; }
     int about(int, struct stat&) { return -EINVAL; }

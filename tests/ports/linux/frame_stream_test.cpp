@@ -83,7 +83,7 @@ TEST(FrameStream, LooksNoFurtherThanTheLongestHeader) {
     for (const int length : {400, 600, 100000}) {
         const std::string noted =
             "P5 #" + std::string(static_cast<std::size_t>(length), 'x') + "\n2 2 255\nabcd";
-        const auto events = heard({}, noted + small, 512, 100);
+        const auto events = heard({}, noted + small, 2000, 100);
         ASSERT_EQ(events.size(), 2u) << length;
         EXPECT_EQ(events[0], length == 400 ? noted : malformed);
         EXPECT_EQ(events[1], small);

@@ -266,6 +266,24 @@ TEST(ReplaySource, PassesOverWhatIsDueForTheLatest) {
     EXPECT_EQ(bench.next(500000), nobody);
 }
 
+TEST(ReplaySource, KeepsItsRateAfterAPause) {
+    Bench bench;
+    ReplayOptions options;
+    options.interval_us = 100000;
+    options.end = ReplayEnd::watch;
+    ASSERT_EQ(bench.open(bench.folder.path(), options), Status::ok);
+    EXPECT_EQ(bench.next(1000000), nothing);
+    bench.time.now_us += 1000000;
+    EXPECT_EQ(bench.next(), nothing);
+    write_ten(bench.folder);
+    EXPECT_EQ(bench.next(400000), "a");
+    EXPECT_EQ(bench.next(), nothing);
+    EXPECT_EQ(bench.next(100000), "b");
+    bench.time.now_us += 100000;
+    EXPECT_EQ(bench.next(), "c");
+    EXPECT_EQ(bench.next(), nothing);
+}
+
 TEST(ReplaySource, TakesAtItsOwnTimeWhatHasNoRate) {
     Bench bench;
     write_ten(bench.folder);

@@ -150,7 +150,7 @@ private:
         const auto space = [](std::uint8_t c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
         while (at < used_ && (searching_ ? !may_begin(at) : space(buffer_[at]))) ++at;
         if (at > 0) remove(at);
-        return used_ > (searching_ ? 1 : 0);
+        return used_ > 0;
     }
     bool may_begin(std::ptrdiff_t at) const {
         return buffer_[at] == 'P' && (at + 1 == used_ || buffer_[at + 1] == '5' || buffer_[at + 1] == '6');

@@ -71,6 +71,7 @@ public:
 
     int sync(int file) { return answer(::fsync(file)); }
     int rename(const char* from, const char* to) { return answer(::rename(from, to)); }
+    int make_folder(const char* path, unsigned mode) { return answer(::mkdir(path, mode)); }
     int remove(const char* path) { return answer(::unlink(path)); }
     int about(const char* path, struct stat& what) { return answer(::stat(path, &what)); }
     int about(int file, struct stat& what) { return answer(::fstat(file, &what)); }
