@@ -25,6 +25,9 @@ template <class System = linux_port::Kernel>
 class CameraOpening {
 public:
     using Camera = linux_port::V4l2Camera<System>;
+    using Calls = System;
+    /// A camera wakes who waits for it.
+    static constexpr std::int64_t look_us = 1000000;
 
     CameraOpening(const Settings& settings, System system = {}, linux_port::DeviceFolders folders = {})
         : settings_(settings), finder_(system, folders), system_(system) {}
@@ -50,6 +53,8 @@ public:
         return fail(status, camera.fault());
     }
 
+    /// What wakes for its frames.
+    static int file(const Camera& camera) { return camera.file(); }
     const char* problem() const { return problem_.c_str(); }
     const char* advice() const { return advice_; }
     const linux_port::DevicePath& path() const { return path_; }

@@ -16,8 +16,7 @@
 //     TEACH name        keeps the next frame as a sample of that name
 //     VER?              OK fovead 0.1.0
 //
-// Replies are "OK ..." or "ERR number reason". A silent device replies to what asks (?) and to errors of
-// nobody.
+// Replies are "OK ..." or "ERR number reason". A silent device replies to what asks (?), and to errors.
 #pragma once
 
 #include <cstddef>

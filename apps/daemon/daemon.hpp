@@ -23,6 +23,8 @@
 #include <daemon/command.hpp>
 #include <daemon/daemon_events.hpp>
 #include <daemon/daemon_replies.hpp>
+#include <daemon/failure_ring.hpp>
+#include <daemon/image_quality.hpp>
 #include <daemon/inspection.hpp>
 #include <daemon/jobs.hpp>
 #include <daemon/judge.hpp>
@@ -58,15 +60,20 @@ struct DaemonOptions {
 /// World is what the daemon is connected to:
 ///   std::int64_t now_us()
 ///   camera()                      a CameraKeeper
-///   const char* camera_fault(), camera_advice(), link_fault()      of their last trouble
-///   Status gray(const hal::FrameInfo&, ImageView<const Gray8>&)    the picture of a frame, good until the
-///   next const char* quality(ImageView<const Gray8>)      one word for what is wrong with a picture, "" if
-///   nothing is std::int64_t frame_interval_us(), std::uint64_t missed_frames()    of the camera
+///   const char* camera_fault(), camera_advice(), link_fault()
+///                                 of their last trouble
+///   std::int64_t frame_interval_us(), std::uint64_t missed_frames()
+///                                 of the camera
+///   Status gray(const hal::FrameInfo&, ImageView<const Gray8>&)
+///                                 the picture of a frame, good until the next
+///   ImageVerdict quality(ImageView<const Gray8>)
+///                                 whether a picture can be judged at all
 ///   link()                        a SerialLink, which may have no port
 ///   lines()                       VerdictLines
 ///   bool next_edge(TriggerEdge&)  edges of the trigger's line that have not been taken
 ///   void print(Span<const char>)  a line of JSON, without its end
 ///   void keep_failure(ImageView<const Gray8>, const Inspection&)
+///   bool take_failure_event(FailureRingEvent&)
 ///   Status keep_sample(Span<const char> name, ImageView<const Gray8>)
 ///   Span<std::uint8_t> scratch()  for judge_scratch() of every job
 ///   const JobList& jobs()
@@ -288,10 +295,10 @@ void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
     inspection_.age_us = begin_us - info.time_us;
     inspection_.parts = inspection_.values = 0;
     inspection_.feature = {};
-    const char* const quality = world_.quality(picture);
-    if (quality[0] != '\0') {
+    const ImageVerdict quality = world_.quality(picture);
+    if (quality != ImageVerdict::fine) {
         inspection_.answer = Answer::error;
-        inspection_.reason = quality;
+        inspection_.reason = word_of(quality);
     } else {
         judge_.judge(picture, world_.jobs()[job_].recipe, world_.scratch(), inspection_);
     }
@@ -360,8 +367,10 @@ std::int64_t Daemon<World>::turn() {
     const auto sooner = [&](std::int64_t at_us) { next_us = at_us < next_us ? at_us : next_us; };
     if (const std::int64_t pulse_us = lines.turn(now_us); pulse_us >= 0) sooner(pulse_us);
     events_.tell_lines(lines.take_fault());
+    FailureRingEvent failure;
+    while (world_.take_failure_event(failure)) events_.tell_failures(failure);
     if (waiting_) sooner(trigger_us_ + options_.timeout_us + 1);
-    if (!world_.link().open()) sooner(world_.link().next_try_us());
+    if (world_.link().wired() && !world_.link().open()) sooner(world_.link().next_try_us());
     // Replies leave in the turn in which they were made.
     world_.link().turn(now_us);
     return next_us;

@@ -8,8 +8,11 @@
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/linux/fault.hpp>
 
 #include <daemon/camera_keeper.hpp>
+#include <daemon/failure_ring.hpp>
+#include <daemon/image_quality.hpp>
 #include <daemon/text_buffer.hpp>
 
 namespace fovea::apps {
@@ -42,15 +45,25 @@ public:
         end();
     }
 
-    /// Of every picture; the word is empty for one that can be judged.
-    void tell_quality(const char* word) {
-        if (letters_equal(word, quality_)) return;
-        quality_ = word;
+    /// Of every picture. The trouble ends after a few that are fine, so that a lamp that flickers is one
+    /// event.
+    void tell_quality(ImageVerdict verdict) {
+        if (!image_.changed_by(verdict)) return;
         begin(quality_bad() ? "image_quality" : "image_quality_back");
-        if (quality_bad()) line_.text(",\"reason\":\"").text(word).text("\"");
+        if (quality_bad()) line_.text(",\"reason\":\"").text(word_of(image_.trouble())).text("\"");
         end();
     }
-    bool quality_bad() const { return quality_[0] != '\0'; }
+    bool quality_bad() const { return image_.trouble() != ImageVerdict::fine; }
+
+    /// Whether the pictures of failures can be kept.
+    void tell_failures(const FailureRingEvent& event) {
+        const bool kept = event.status == Status::ok;
+        begin(kept ? "failures_kept" : "failures_lost");
+        if (!kept) line_.text(",\"reason\":").json(letters_of(linux_port::reason(event.fault)));
+        const char* const advice = kept ? "" : linux_port::advice(event.fault);
+        if (advice[0] != '\0') line_.text(",\"try\":").json(letters_of(advice));
+        end();
+    }
 
     /// Of every turn: what a pin answered.
     void tell_lines(Status pin) {
@@ -76,10 +89,6 @@ public:
     }
 
 private:
-    static bool letters_equal(const char* a, const char* b) {
-        while (*a != '\0' && *a == *b) ++a, ++b;
-        return *a == *b;
-    }
     TextBuffer& begin(const char* event) {
         line_.clear();
         return line_.text("{\"v\":1,\"ev\":\"").text(event).text("\",\"t_mono_us\":").number(world_.now_us());
@@ -92,7 +101,7 @@ private:
     World& world_;
     char room_[1024];
     TextBuffer line_{Span<char>(room_)};
-    const char* quality_ = "";
+    ImageTrouble image_;
     Status lines_ = Status::ok;
 };
 

@@ -21,6 +21,7 @@
 #include <daemon/daemon.hpp>
 #include <daemon/jobs.hpp>
 #include <daemon/linux_world.hpp>
+#include <daemon/replay_opening.hpp>
 #include <daemon/settings.hpp>
 #include <daemon/settings_reader.hpp>
 
@@ -112,10 +113,11 @@ inline DaemonOptions daemon_options(const Settings& settings, const char* versio
 }
 
 /// The daemon as it runs by one set of files.
-template <class System>
+/// Opening is CameraOpening or ReplayOpening.
+template <class Opening>
 class DaemonSession {
 public:
-    DaemonSession(const DaemonFiles& files, const char* version, System system)
+    DaemonSession(const DaemonFiles& files, const char* version, typename Opening::Calls system)
         : files_(files),
           world_(files_.settings, files_.jobs, system),
           daemon_(world_, daemon_options(files_.settings, version)) {}
@@ -147,13 +149,23 @@ public:
         return "";
     }
 
-    LinuxWorld<System>& world() { return world_; }
-    Daemon<LinuxWorld<System>>& daemon() { return daemon_; }
+    void tell_reload(const std::string& problem) {
+        char room[1024];
+        TextBuffer line(room);
+        line.text("{\"v\":1,\"ev\":\"").text(problem.empty() ? "reload" : "reload_failed");
+        line.text("\",\"t_mono_us\":").number(world_.now_us());
+        if (!problem.empty()) line.text(",\"reason\":").json(span_of(problem));
+        line.put('}');
+        if (!line.full()) world_.print(line.letters());
+    }
+
+    LinuxWorld<Opening>& world() { return world_; }
+    Daemon<LinuxWorld<Opening>>& daemon() { return daemon_; }
 
 private:
     DaemonFiles files_;
-    LinuxWorld<System> world_;
-    Daemon<LinuxWorld<System>> daemon_;
+    LinuxWorld<Opening> world_;
+    Daemon<LinuxWorld<Opening>> daemon_;
 };
 
 inline const char* fovead_help() {
@@ -169,6 +181,58 @@ inline const char* fovead_help() {
            "  --help                  print this\n\n"
            "SIGHUP reads settings and jobs anew, SIGTERM ends with all lines inactive.\n"
            "Ends with 0, 64 for wrong words, 69 if a device is missing or taken, 78 if settings are wrong.\n";
+}
+
+/// Runs by the files until a signal ends it; reads them anew where one says so.
+template <class Opening, class Io, class System, class TakeSignals>
+int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& files,
+               const std::string& config, Io& io, System system, linux_port::ServiceNotify<System>& notify,
+               int signal_file, TakeSignals take_signals, const char* version) {
+    const auto begin = [&](const DaemonFiles& by) {
+        // Devices have one owner: the old session ends before the new one begins.
+        if (session != nullptr) session->daemon().stop();
+        session.reset();
+        session = std::make_unique<DaemonSession<Opening>>(by, version, system);
+        return session->open(version);
+    };
+    if (const std::string problem = begin(files); !problem.empty()) {
+        io.complain("fovead: " + problem);
+        return daemon_unavailable;
+    }
+    static_cast<void>(notify.ready());
+    // Between READY and the end nothing is allocated, but to read the settings anew.
+    for (;;) {
+        const DaemonSignals signals = take_signals();
+        if (signals.end) break;
+        if (signals.reload) {
+            static_cast<void>(notify.reloading());
+            const DaemonFiles fresh = read_daemon_files(config);
+            std::string problem = fresh.problem;
+            if (problem.empty() &&
+                fresh.settings.camera.replay.empty() != files.settings.camera.replay.empty())
+                problem = "from a camera to a replay, or back, it has to be started again";
+            if (problem.empty()) {
+                problem = begin(fresh);
+                if (problem.empty()) {
+                    files = fresh;
+                } else if (const std::string worse = begin(files); !worse.empty()) {
+                    io.complain("fovead: " + problem + "; and as it was before: " + worse);
+                    return daemon_unavailable;
+                }
+            }
+            session->tell_reload(problem);
+            if (!problem.empty()) io.complain("fovead: not read anew: " + problem);
+            static_cast<void>(notify.ready());
+        }
+        const std::int64_t next_us = session->daemon().turn();
+        // The watchdog is fed by turns that came to their end, and by nothing else.
+        notify.feed();
+        const std::int64_t now_us = session->world().now_us();
+        session->world().wait(next_us < now_us + 1000000 ? next_us : now_us + 1000000, signal_file);
+    }
+    static_cast<void>(notify.stopping());
+    session->daemon().stop();
+    return daemon_ok;
 }
 
 /// Runs the daemon. take_signals() says what signals came since its last call; signal_file wakes a wait for
@@ -208,56 +272,12 @@ int fovead(const std::vector<std::string>& words, Io& io, System system,
         return daemon_ok;
     }
     linux_port::ServiceNotify<System> notify(system, environment);
-    auto session = std::make_unique<DaemonSession<System>>(files, version, system);
-    if (const std::string problem = session->open(version); !problem.empty()) {
-        io.complain("fovead: " + problem);
-        return daemon_unavailable;
-    }
-    static_cast<void>(notify.ready());
-    // Between READY and the end nothing is allocated, but to read the settings anew.
-    for (;;) {
-        const DaemonSignals signals = take_signals();
-        if (signals.end) break;
-        if (signals.reload) {
-            static_cast<void>(notify.reloading());
-            DaemonFiles fresh = read_daemon_files(config);
-            std::string problem = fresh.problem;
-            if (problem.empty()) {
-                // Devices have one owner: the old session ends before the new one begins.
-                session->daemon().stop();
-                session.reset();
-                session = std::make_unique<DaemonSession<System>>(fresh, version, system);
-                problem = session->open(version);
-                if (problem.empty()) {
-                    files = fresh;
-                } else {
-                    session.reset();
-                    session = std::make_unique<DaemonSession<System>>(files, version, system);
-                    if (const std::string worse = session->open(version); !worse.empty()) {
-                        io.complain("fovead: " + problem + "; and as it was before: " + worse);
-                        return daemon_unavailable;
-                    }
-                }
-            }
-            char room[1024];
-            TextBuffer line(room);
-            line.text("{\"v\":1,\"ev\":\"").text(problem.empty() ? "reload" : "reload_failed");
-            line.text("\",\"t_mono_us\":").number(session->world().now_us());
-            if (!problem.empty()) line.text(",\"reason\":").json(span_of(problem));
-            line.put('}');
-            if (!line.full()) session->world().print(line.letters());
-            if (!problem.empty()) io.complain("fovead: not read anew: " + problem);
-            static_cast<void>(notify.ready());
-        }
-        const std::int64_t next_us = session->daemon().turn();
-        // The watchdog is fed by turns that came to their end, and by nothing else.
-        notify.feed();
-        const std::int64_t now_us = session->world().now_us();
-        session->world().wait(next_us < now_us + 1000000 ? next_us : now_us + 1000000, signal_file);
-    }
-    static_cast<void>(notify.stopping());
-    session->daemon().stop();
-    return daemon_ok;
+    const auto run = [&](auto session) {
+        return run_daemon(session, files, config, io, system, notify, signal_file, take_signals, version);
+    };
+    if (files.settings.camera.replay.empty())
+        return run(std::unique_ptr<DaemonSession<CameraOpening<System>>>());
+    return run(std::unique_ptr<DaemonSession<ReplayOpening<System>>>());
 }
 
 }  // namespace fovea::apps

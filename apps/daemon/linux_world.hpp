@@ -5,6 +5,7 @@
 #pragma once
 
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -33,7 +34,9 @@
 #include <daemon/camera_keeper.hpp>
 #include <daemon/camera_opening.hpp>
 #include <daemon/daemon.hpp>
+#include <daemon/failure_ring.hpp>
 #include <daemon/gray_frame.hpp>
+#include <daemon/image_quality.hpp>
 #include <daemon/inspection.hpp>
 #include <daemon/jobs.hpp>
 #include <daemon/judge.hpp>
@@ -47,11 +50,9 @@ namespace fovea::apps {
 template <class System>
 class SerialOpening {
 public:
-    SerialOpening(const Settings::Serial& settings, System system)
-        : settings_(settings), finder_(system), configured_(!settings.device.empty()) {}
+    SerialOpening(const Settings::Serial& settings, System system) : settings_(settings), finder_(system) {}
 
     Status operator()(linux_port::SerialPort<System>& port) {
-        if (!configured_) return Status::not_found;
         linux_port::DevicePath path;
         if (const Status s = finder_.resolve("tty", settings_.device.c_str(), path); s != Status::ok) {
             fault_ = finder_.fault();
@@ -71,19 +72,20 @@ private:
     Settings::Serial settings_;
     linux_port::DeviceFinder<System> finder_;
     linux_port::Fault fault_;
-    bool configured_;
 };
 
-template <class System = linux_port::Kernel>
+/// TheOpening is CameraOpening or ReplayOpening.
+template <class TheOpening = CameraOpening<>>
 class LinuxWorld {
 public:
-    using Camera = linux_port::V4l2Camera<System>;
+    using System = typename TheOpening::Calls;
+    using Camera = typename TheOpening::Camera;
     using Clock = linux_port::MonotonicClock<System>;
     using Port = linux_port::SerialPort<System>;
     using Pin = linux_port::OutputLine<System>;
     /// The opening stays with the world: who looks for a reason finds it there.
     struct OpenCamera {
-        CameraOpening<System>* opening;
+        TheOpening* opening;
         Status operator()(Camera& camera) const { return (*opening)(camera); }
     };
     struct OpenPort {
@@ -100,6 +102,8 @@ public:
     LinuxWorld& operator=(const LinuxWorld&) = delete;
     ~LinuxWorld() {
         lines_.make_safe();
+        // A disk that hangs keeps its thread, which would have to be waited for.
+        if (failures_.stop(300000) == Status::timeout) ::_exit(0);
         camera_.close();
     }
 
@@ -129,7 +133,10 @@ public:
         if (got) picture = *got;
         return got.status();
     }
-    const char* quality(ImageView<const Gray8>) { return ""; }
+    ImageVerdict quality(ImageView<const Gray8> picture) {
+        const Result<ImageQuality> measured = image_quality(picture, limits_);
+        return measured ? judge(*measured, limits_) : ImageVerdict::fine;
+    }
     Link& link() { return link_; }
     Lines& lines() { return lines_; }
     bool next_edge(TriggerEdge& edge) {
@@ -148,7 +155,14 @@ public:
         static_cast<void>(printed_.send({print_line_.data(), size + 1}));
         static_cast<void>(printed_.pump(output_));
     }
-    void keep_failure(ImageView<const Gray8>, const Inspection&) {}
+    void keep_failure(ImageView<const Gray8> picture, const Inspection& inspection) {
+        if (settings_.failures.folder.empty()) return;
+        TextBuffer text{Span<char>(failure_text_)};
+        write_json(inspection, text);
+        // One that finds no place is counted as dropped.
+        if (!text.full()) static_cast<void>(failures_.offer(picture, text.letters()));
+    }
+    bool take_failure_event(FailureRingEvent& event) { return failures_.take_event(event); }
     Status keep_sample(Span<const char> name, ImageView<const Gray8> picture);
     Span<std::uint8_t> scratch() { return span(judge_memory_); }
     const JobList& jobs() const { return jobs_; }
@@ -158,7 +172,7 @@ public:
     /// Waits until something has come from the camera, the serial port, the trigger's line or the file given,
     /// or that moment is there.
     void wait(std::int64_t until_us, int signals);
-    const CameraOpening<System>& opening() const { return opening_; }
+    const TheOpening& opening() const { return opening_; }
     const Camera& camera_port() const { return camera_; }
 
 private:
@@ -168,19 +182,19 @@ private:
     std::string open_camera();
     std::string open_lines();
     std::string open_serial();
-    void lay_out();
+    std::string lay_out();
 
     Settings settings_;
     const JobList& jobs_;
     System system_;
     Clock clock_{system_};
     Camera camera_{system_};
-    CameraOpening<System> opening_{settings_, system_};
+    TheOpening opening_{settings_, system_};
     Keeper keeper_{camera_, clock_, OpenCamera{&opening_}};
     Port port_{system_};
     SerialOpening<System> port_opening_{settings_.serial, system_};
     std::vector<std::uint8_t> link_memory_ = std::vector<std::uint8_t>(65536);
-    Link link_{port_, OpenPort{&port_opening_}, span(link_memory_)};
+    Link link_{port_, OpenPort{&port_opening_}, span(link_memory_), !settings_.serial.device.empty()};
     Pin ready_{system_};
     Pin busy_{system_};
     Pin valid_{system_};
@@ -197,23 +211,27 @@ private:
     std::vector<std::uint8_t> gray_memory_;
     std::vector<std::uint8_t> judge_memory_;
     std::vector<std::uint8_t> sample_memory_;
+    std::vector<std::uint8_t> failure_memory_;
+    char failure_text_[FailureRing<System>::most_text];
+    FailureRing<System> failures_{system_};
+    ImageQualityLimits limits_;
 };
 
 // ---- Implementation ---------------------------------------------------------------
 
-template <class System>
-std::string LinuxWorld<System>::open() {
+template <class TheOpening>
+std::string LinuxWorld<TheOpening>::open() {
     // Without it a device that comes is found a little later.
     static_cast<void>(watch_.open());
     std::string problem = open_lines();
     if (problem.empty()) problem = open_camera();
     if (problem.empty()) problem = open_serial();
-    if (problem.empty()) lay_out();
+    if (problem.empty()) problem = lay_out();
     return problem;
 }
 
-template <class System>
-std::string LinuxWorld<System>::open_camera() {
+template <class TheOpening>
+std::string LinuxWorld<TheOpening>::open_camera() {
     typename Camera::Frame frame;
     static_cast<void>(keeper_.fetch(FramePolicy::every, 0, frame));
     if (keeper_.streaming()) return "";
@@ -227,8 +245,8 @@ std::string LinuxWorld<System>::open_camera() {
     return problem;
 }
 
-template <class System>
-std::string LinuxWorld<System>::open_lines() {
+template <class TheOpening>
+std::string LinuxWorld<TheOpening>::open_lines() {
     const Settings::Lines& names = settings_.lines;
     const bool triggered = settings_.trigger.source == TriggerSource::line;
     if (names.chip.empty()) return triggered ? "[trigger] source = \"line\" wants a chip in [lines]" : "";
@@ -270,8 +288,8 @@ std::string LinuxWorld<System>::open_lines() {
     return "";
 }
 
-template <class System>
-std::string LinuxWorld<System>::open_serial() {
+template <class TheOpening>
+std::string LinuxWorld<TheOpening>::open_serial() {
     if (settings_.serial.device.empty()) return "";
     link_.turn(now_us());
     // One that is not there yet may be plugged in; one that another has will stay so.
@@ -281,8 +299,8 @@ std::string LinuxWorld<System>::open_serial() {
            linux_port::reason(fault) + "; " + linux_port::advice(fault);
 }
 
-template <class System>
-void LinuxWorld<System>::lay_out() {
+template <class TheOpening>
+std::string LinuxWorld<TheOpening>::lay_out() {
     const Size size = keeper_.streaming() ? opening_.size()
                                           : Size{static_cast<int>(settings_.camera.width),
                                                  static_cast<int>(settings_.camera.height)};
@@ -299,10 +317,24 @@ void LinuxWorld<System>::lay_out() {
     gray_memory_.resize(static_cast<std::size_t>(gray));
     judge_memory_.resize(static_cast<std::size_t>(judge));
     sample_memory_.resize(static_cast<std::size_t>(size.area() + 64));
+    limits_.most_dark = static_cast<int>(settings_.quality.most_dark);
+    limits_.most_saturated = static_cast<int>(settings_.quality.most_saturated);
+    limits_.least_contrast = static_cast<int>(settings_.quality.least_contrast);
+    limits_.least_sharpness = static_cast<int>(settings_.quality.least_sharpness);
+    if (settings_.failures.folder.empty()) return "";
+    constexpr int places = 4;
+    failure_memory_.resize(static_cast<std::size_t>(FailureRing<System>::memory_bytes(places, size)));
+    const linux_port::RingLimits ring{settings_.failures.megabytes * 1000000,
+                                      static_cast<int>(settings_.failures.pictures)};
+    const Status started =
+        failures_.start(settings_.failures.folder.c_str(), ring, places, size, span(failure_memory_));
+    if (started == Status::ok) return "";
+    return std::string("[failures] ") + settings_.failures.folder.c_str() + ": " +
+           (failures_.fault().error != 0 ? linux_port::reason(failures_.fault()) : describe(started));
 }
 
-template <class System>
-Status LinuxWorld<System>::keep_sample(Span<const char> name, ImageView<const Gray8> picture) {
+template <class TheOpening>
+Status LinuxWorld<TheOpening>::keep_sample(Span<const char> name, ImageView<const Gray8> picture) {
     if (settings_.teach.folder.empty()) return Status::unsupported;
     const Result<std::ptrdiff_t> bytes = encode_pnm(picture, span(sample_memory_));
     if (!bytes) return bytes.status();
@@ -317,12 +349,12 @@ Status LinuxWorld<System>::keep_sample(Span<const char> name, ImageView<const Gr
                                     {sample_memory_.data(), *bytes}, fault);
 }
 
-template <class System>
-void LinuxWorld<System>::wait(std::int64_t until_us, int signals) {
-    const std::int64_t left_us = until_us - now_us();
+template <class TheOpening>
+void LinuxWorld<TheOpening>::wait(std::int64_t until_us, int signals) {
+    const std::int64_t left_us = std::min(until_us - now_us(), TheOpening::look_us);
     if (left_us <= 0) return;
     pollfd files[6] = {{signals, POLLIN, 0},
-                       {keeper_.streaming() ? camera_.file() : -1, POLLIN | POLLPRI, 0},
+                       {keeper_.streaming() ? TheOpening::file(camera_) : -1, POLLIN | POLLPRI, 0},
                        {port_.file(), static_cast<short>(POLLIN | (link_.waiting() ? POLLOUT : 0)), 0},
                        {trigger_.file(), POLLIN, 0},
                        {printed_.waiting() > 0 ? 1 : -1, POLLOUT, 0},

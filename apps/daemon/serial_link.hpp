@@ -18,11 +18,13 @@ namespace fovea::apps {
 template <class Port, class Opening>
 class SerialLink {
 public:
-    SerialLink(Port& port, Opening opening, Span<std::uint8_t> memory)
-        : port_(port), opening_(opening), queue_(memory) {}
+    /// Without a port to open it does nothing, and nothing is wrong.
+    SerialLink(Port& port, Opening opening, Span<std::uint8_t> memory, bool wired = true)
+        : port_(port), opening_(opening), queue_(memory), wired_(wired) {}
 
     /// Opens what is not open, takes what has arrived and sends what waits.
     void turn(std::int64_t now_us) {
+        if (!wired_) return;
         if (!open_) {
             if (now_us < next_try_us_) return;
             const Status got = opening_(port_);
@@ -61,6 +63,7 @@ public:
     }
     Status trouble() const { return trouble_; }
     bool open() const { return open_; }
+    bool wired() const { return wired_; }
     /// True while records wait for room.
     bool waiting() const { return queue_.waiting() > 0; }
     std::uint32_t dropped() const { return queue_.dropped(); }
@@ -80,6 +83,7 @@ private:
     Opening opening_;
     hal::RecordQueue queue_;
     hal::LineReader<256, 512> reader_;
+    bool wired_;
     bool open_ = false;
     bool told_ = false;
     Status trouble_ = Status::ok;

@@ -10,6 +10,7 @@
 
 #include <fovea/base/list.hpp>
 #include <fovea/hal/pixel_format.hpp>
+#include <fovea/linux/replay_files.hpp>
 #include <fovea/linux/text.hpp>
 
 #include <daemon/verdict_lines.hpp>
@@ -32,6 +33,7 @@ struct Settings {
     struct Camera {
         Text<191> device;
         Text<191> replay;
+        linux_port::ReplayEnd replay_end = linux_port::ReplayEnd::repeat;
         std::int64_t width = 0;
         std::int64_t height = 0;
         hal::PixelFormat format = hal::PixelFormat::none;
@@ -83,9 +85,10 @@ struct Settings {
         std::int64_t pictures = 1000;
     } failures;
     struct Quality {
-        std::int64_t dark_percent = 98;
-        std::int64_t saturated_percent = 50;
-        std::int64_t contrast = 8;
+        std::int64_t most_dark = 990;
+        std::int64_t most_saturated = 950;
+        std::int64_t least_contrast = 10;
+        std::int64_t least_sharpness = 150;
     } quality;
 };
 
@@ -153,6 +156,9 @@ inline Span<const SettingKey> setting_keys() {
          set_text<&S::camera, &S::Camera::device>, 0, 191},
         {"camera", "replay", text, "\"\"", "a picture, a folder or a FIFO to judge in place of a camera",
          set_text<&S::camera, &S::Camera::replay>, 0, 191},
+        {"camera", "replay_end", choice, "\"repeat\"",
+         "of a replay: what comes behind the last picture; \"watch\" waits for new ones in the folder",
+         set_number<&S::camera, &S::Camera::replay_end>, 0, 0, "stop|repeat|watch"},
         {"camera", "width", integer, "0",
          "width of the frames in pixels; 0 for the largest that is fast enough",
          set_number<&S::camera, &S::Camera::width>, 0, 32767},
@@ -245,17 +251,20 @@ inline Span<const SettingKey> setting_keys() {
         {"failures", "pictures", integer, "1000", "how many are kept at most",
          set_number<&S::failures, &S::Failures::pictures>, 1, 1000000},
 
-        {"quality", "dark_percent", integer, "98",
-         "no verdict if so much of a picture is darker than level 16",
-         set_number<&S::quality, &S::Quality::dark_percent>, 1, 101},
-        {"quality", "saturated_percent", integer, "50",
-         "no verdict if so much of it is brighter than level 250; 101 never",
-         set_number<&S::quality, &S::Quality::saturated_percent>, 1, 101},
-        {"quality", "contrast", integer, "8", "no verdict if its brightest and darkest levels differ by less",
-         set_number<&S::quality, &S::Quality::contrast>, 0, 255},
+        {"quality", "most_dark", integer, "990",
+         "no verdict if more thousandths of a picture are darker than level 32; 1000 for never",
+         set_number<&S::quality, &S::Quality::most_dark>, 1, 1000},
+        {"quality", "most_saturated", integer, "950",
+         "no verdict if more thousandths of it are brighter than level 249; 1000 for never",
+         set_number<&S::quality, &S::Quality::most_saturated>, 1, 1000},
+        {"quality", "least_contrast", integer, "10",
+         "no verdict if its brightest and darkest levels differ by less; 0 for never",
+         set_number<&S::quality, &S::Quality::least_contrast>, 0, 255},
+        {"quality", "least_sharpness", integer, "150",
+         "no verdict if its sharpest edges are softer, in thousandths; 0 for never. Out of focus by 2 px is "
+         "165",
+         set_number<&S::quality, &S::Quality::least_sharpness>, 0, 1000},
     };
-    static_cast<void>(text), static_cast<void>(integer), static_cast<void>(boolean),
-        static_cast<void>(choice);
     return {keys, static_cast<std::ptrdiff_t>(sizeof keys / sizeof keys[0])};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Linked into a program, this is its heap: it counts every call, and SIGUSR1 lets it say so: "heap calls N". Nothing is ever
-// given back.
+// Linked into a program, this is its heap: it counts every call, and SIGUSR1 lets it say so: "heap calls N".
+// Nothing is ever given back.
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,7 +31,8 @@ void tell(int) {
     char text[40] = "heap calls ";
     char digits[12];
     int count = 0;
-    for (std::uint32_t rest = calls; rest != 0 || count == 0; rest /= 10) digits[count++] = static_cast<char>('0' + rest % 10);
+    for (std::uint32_t rest = calls; rest != 0 || count == 0; rest /= 10)
+        digits[count++] = static_cast<char>('0' + rest % 10);
     int size = 11;
     while (count > 0) text[size++] = digits[--count];
     text[size++] = '\n';
@@ -46,7 +47,9 @@ extern "C" {
 void* malloc(std::size_t bytes) { return take(bytes, 16); }
 void free(void*) { calls = calls + 1; }
 void* calloc(std::size_t count, std::size_t bytes) { return take(count * bytes, 16); }
-void* memalign(std::size_t alignment, std::size_t bytes) { return take(bytes, std::max<std::size_t>(alignment, 16)); }
+void* memalign(std::size_t alignment, std::size_t bytes) {
+    return take(bytes, std::max<std::size_t>(alignment, 16));
+}
 void* aligned_alloc(std::size_t alignment, std::size_t bytes) { return memalign(alignment, bytes); }
 int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) {
     *memory = memalign(alignment, bytes);

@@ -126,7 +126,7 @@ public:
         device.now_us += judging_us;
         return Status::ok;
     }
-    const char* quality(ImageView<const Gray8>) { return quality_word; }
+    apps::ImageVerdict quality(ImageView<const Gray8>) { return quality_verdict; }
     Link& link() { return link_; }
     Lines& lines() { return lines_; }
     bool next_edge(apps::TriggerEdge& edge) {
@@ -138,6 +138,12 @@ public:
     void print(Span<const char> line) { printed.emplace_back(line.begin(), line.end()); }
     void keep_failure(ImageView<const Gray8>, const apps::Inspection& inspection) {
         failures.push_back(inspection.number);
+    }
+    bool take_failure_event(apps::FailureRingEvent& event) {
+        if (failure_events.empty()) return false;
+        event = failure_events.front();
+        failure_events.pop_front();
+        return true;
     }
     Status keep_sample(Span<const char> name, ImageView<const Gray8>) {
         samples.emplace_back(name.begin(), name.end());
@@ -190,7 +196,8 @@ public:
     std::string problem;
     int undecodable = 0;
     std::int64_t judging_us = 0;
-    const char* quality_word = "";
+    apps::ImageVerdict quality_verdict = apps::ImageVerdict::fine;
+    std::deque<apps::FailureRingEvent> failure_events;
     std::vector<std::uint8_t> scratch_room;
 
 private:

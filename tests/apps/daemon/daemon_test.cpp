@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -247,7 +248,7 @@ TEST(Daemon, ASerialLineThatIsStuckOrGoneMovesNoVerdict) {
 TEST(Daemon, TellsABadPictureApartFromABadPart) {
     Bench bench(TriggerSource::line);
     run(bench.world, bench.daemon, 300000);
-    bench.world.quality_word = "dark";
+    bench.world.quality_verdict = ImageVerdict::dark;
     for (int k = 0; k < 2; ++k) {
         bench.edge();
         run(bench.world, bench.daemon, 200000);
@@ -255,11 +256,26 @@ TEST(Daemon, TellsABadPictureApartFromABadPart) {
     EXPECT_EQ(bench.daemon.tally().error, 2u);
     EXPECT_EQ(bench.daemon.tally().not_ok, 0u);
     EXPECT_TRUE(bench.world.alarm() && !bench.world.valid());
-    bench.world.quality_word = "";
-    bench.edge();
-    run(bench.world, bench.daemon, 200000);
-    EXPECT_EQ(bench.world.events(), Words({"ERROR", "image_quality", "ERROR", "OK", "image_quality_back"}));
+    bench.world.quality_verdict = ImageVerdict::fine;
+    for (int k = 0; k < 5; ++k) {
+        EXPECT_TRUE(bench.world.alarm());
+        bench.edge();
+        run(bench.world, bench.daemon, 200000);
+    }
+    EXPECT_EQ(bench.world.events(),
+              Words({"ERROR", "image_quality", "ERROR", "OK", "OK", "OK", "OK", "OK", "image_quality_back"}));
     EXPECT_FALSE(bench.world.alarm());
+}
+
+TEST(Daemon, TellsThatPicturesOfFailuresCannotBeKept) {
+    Bench bench(TriggerSource::line);
+    run(bench.world, bench.daemon, 300000);
+    bench.world.failure_events.push_back({Status::io_error, {"write", ENOSPC, Status::io_error, ""}});
+    bench.world.failure_events.push_back({});
+    run(bench.world, bench.daemon, 20000);
+    ASSERT_EQ(bench.world.printed.size(), 2u);
+    EXPECT_NE(bench.world.printed[0].find("the disk is full"), std::string::npos);
+    EXPECT_EQ(bench.world.events(), Words({"failures_lost", "failures_kept"}));
 }
 
 TEST(Daemon, TellsOnceThatALineCannotBeSet) {
@@ -303,13 +319,15 @@ TEST(Daemon, EveryTriggerHasOneAnswerWhateverComes) {
                 case 4: world.judging_us = random.below(100000); break;
                 case 5: world.port.pulled = !world.port.pulled; break;
                 case 6: world.port.room = static_cast<int>(random.below(50)); break;
-                case 7: world.quality_word = random.below(2) == 0 ? "" : "dark"; break;
+                case 7:
+                    world.quality_verdict = random.below(2) == 0 ? ImageVerdict::fine : ImageVerdict::dark;
+                    break;
                 case 8: world.device.scene = random.below(2) == 0 ? &world.good : &world.bad; break;
                 case 10:
                 case 11:
                 case 12:
                     world.device.unplugged = world.device.silent = world.port.pulled = false;
-                    world.quality_word = "";
+                    world.quality_verdict = ImageVerdict::fine;
                     world.judging_us = world.undecodable = 0;
                     break;
                 case 9: world.say("JOB 2\rJOB 1\rJOB 9\rSTAT?\r"); break;

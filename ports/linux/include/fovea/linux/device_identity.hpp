@@ -33,14 +33,12 @@ struct DeviceFolders {
 /// Looks for devices anew with every call, for a device that was plugged in again may have another number.
 ///
 /// An identity is one of
-///   /dev/ttyUSB0                the node, or a link to it, as those of /dev/serial/by-id
-///   usb:0403:6001[:SERIAL]      vendor and product of a USB device in four hexadecimal digits each, and what
-/// it says
-///                               of itself as its serial number
-///   path:NAME                   a name of /dev/serial/by-path or /dev/v4l/by-path; or parts of its place in
-/// /sys
-///                               that follow each other, as 1-1.2:1.0 or fe801000.csi
-///   auto                        all of the class that have a device behind them
+///   /dev/ttyUSB0            the node, or a link to it, as those of /dev/serial/by-id
+///   usb:0403:6001[:SERIAL]  vendor and product of a USB device in four hexadecimal digits each, and what it
+///                           says of itself as its serial number
+///   path:NAME               a name of /dev/serial/by-path or /dev/v4l/by-path; or parts of its place in /sys
+///                           that follow each other, as 1-1.2:1.0 or fe801000.csi
+///   auto                    all of the class that have a device behind them
 template <class System = Kernel>
 class DeviceFinder {
 public:

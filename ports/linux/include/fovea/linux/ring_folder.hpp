@@ -14,7 +14,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/linux/fault.hpp>
-#include <fovea/linux/folder.hpp>
+#include <fovea/linux/folder_path.hpp>
 #include <fovea/linux/kernel.hpp>
 
 namespace fovea::linux_port {
