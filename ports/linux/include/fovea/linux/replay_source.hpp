@@ -166,6 +166,8 @@ private:
     bool lent_ = false;
     bool files_used_ = false;
     bool silent_ = false;
+    /// There was nothing when it was looked last.
+    bool idle_ = false;
     std::uint32_t sequence_ = 0;
     /// Frames since the moment from which they become due.
     std::int64_t number_ = 0;
@@ -222,6 +224,7 @@ Status ReplaySource<System>::start() {
         return unusable(fault_, "start", opened_ ? Status::bad_argument : Status::device_lost,
                         opened_ ? "the source is started already" : "the source is not open");
     streaming_ = true;
+    idle_ = false;
     number_ = 0;
     epoch_us_ = next_look_us_ = system_.monotonic_us();
     pipe_.restart(epoch_us_);
@@ -249,10 +252,11 @@ Taken ReplaySource<System>::take(hal::FrameInfo& info) {
     const Taken taken = files_used_ ? files_.take(system_, now_us, picture_, info, fault_)
                                     : pipe_.take(system_, now_us, picture_, info, begun_us, fault_);
     silent_ = taken == Taken::silent;
-    if (taken == Taken::nothing || taken == Taken::silent) {
-        if (files_used_) next_look_us_ = now_us + look_us;
-        if (due_us() < now_us) epoch_us_ += now_us - due_us();
-    }
+    const bool came = taken != Taken::nothing && taken != Taken::silent;
+    if (!came && files_used_) next_look_us_ = now_us + look_us;
+    // What comes after a pause is due when it is seen, and the others behind it.
+    if ((!came || idle_) && due_us() < now_us) epoch_us_ += now_us - due_us();
+    idle_ = !came;
     if (taken != Taken::frame && taken != Taken::damaged && taken != Taken::gone) return taken;
     if (paced())
         time_us = due_us();
@@ -269,7 +273,7 @@ Taken ReplaySource<System>::take(hal::FrameInfo& info) {
 /// Passes over files that were due before a moment, unread.
 template <class System>
 void ReplaySource<System>::pass_over_until(std::int64_t limit_us) {
-    if (!files_used_ || !paced()) return;
+    if (!files_used_ || !paced() || idle_) return;
     while (due_us() < limit_us && files_.pass_over(system_, fault_) == Taken::frame) {
         ++sequence_;
         ++number_;
