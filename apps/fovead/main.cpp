@@ -59,7 +59,9 @@ int main(int count, char** words) {
     struct sigaction action {};
     action.sa_handler = on_signal;
     for (const int number : {SIGTERM, SIGINT, SIGHUP}) ::sigaction(number, &action, nullptr);
+    // Who does not read any more, and a file that may not grow, are told by the calls themselves.
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     Streams streams;
     const fovea::linux_port::NotifyEnvironment environment = {
         std::getenv("NOTIFY_SOCKET"), std::getenv("WATCHDOG_USEC"), std::getenv("WATCHDOG_PID")};
