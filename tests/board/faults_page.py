@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Prints docs/faults.md: the faults that are provoked, what must become of each, and where it is proved.
+
+usage: faults_page.py [FIGURES...]             FIGURES as ports_test.py, power_cut.py and fovead_test.py write them
+       faults_page.py --check PAGE [FIGURES...]  PAGE must be that, but for the numbers; every proof must be there
+"""
+import re
+import sys
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parents[1]
+
+# Fault, how it is provoked, what must become of it, its proofs: tests by their names, cases of scripts by their functions.
+ROWS = [
+    ("F1", "the camera is unplugged in a stream", "vivid's Disconnect, 100 times; a USB camera whose program ends",
+     "lost within a frame, no frame lent, all files and mappings given back; triggers are answered ERROR, alarm",
+     "V4l2Camera.AnUnpluggedCameraIsLostAndComesBack Daemon.AnswersErrorAtOnceWithoutACamera faults_of_a_webcam "
+     "the_camera_port_on_usb_cameras a_usb_camera_that_was_unplugged_is_found_again"),
+    ("F2", "it is plugged in again, perhaps as another node", "the same; another port of the hub",
+     "found by its identity as soon as its node is there, controls set again; of another size it is refused",
+     "CameraKeeper.HurriesWhereSomethingWasPluggedIn CameraKeeper.LooksForALostCameraMoreAndMoreSeldom "
+     "CameraKeeper.StaysAwayFromACameraOfAnotherSize DeviceWatch.TellsThatANodeCameAndThatItsRightsChanged "
+     "the_camera_port_on_usb_cameras a_usb_camera_that_was_unplugged_is_found_again"),
+    ("F3", "a fatal error of the stream", "vivid's Inject Fatal Streaming Error, 20 times",
+     "started again once before it is opened again; no busy loop",
+     "V4l2Camera.ABrokenStreamStartsAgain CameraKeeper.StartsABrokenStreamAgainWithoutOpening faults_of_a_webcam"),
+    ("F4", "a frame is marked as damaged, or cut short", "vivid's error flag, 20 times; a USB camera's error bit",
+     "counted, never lent; the trigger takes the next frame, or its answer is ERROR",
+     "V4l2Camera.NeverLendsAFrameThatIsMarkedOrShort Daemon.TakesTheNextFrameForOneThatIsDamaged faults_of_a_webcam "
+     "the_camera_port_on_usb_cameras"),
+    ("F5", "the driver drops frames", "vivid drops 40 %", "counted by the holes in their numbers",
+     "V4l2Camera.CountsFramesThatTheDriverLost faults_of_a_webcam"),
+    ("F6", "the camera streams and is silent", "vivid drops 100 %",
+     "told once; started again, then opened again, then every 2 s",
+     "V4l2Camera.SaysThatNothingCame CameraKeeper.BreaksSilenceByAStartThenByOpening faults_of_a_webcam"),
+    ("F7", "the numbers of frames run over", "vivid begins at 2^32 - 128", "no false gap",
+     "SequenceGaps.RunsOverFromTheLastNumberToTheFirst faults_of_a_webcam"),
+    ("F8", "time stamps of the future, of the past, that run over", "vivid's own are ahead; Wrap Timestamp",
+     "no age below 0, no overflow, and no trigger paired with a frame from before it",
+     "FrameStamps.SurvivesAStampThatWrapsAround V4l2Camera.StampsOfTheFutureAgeFromZero faults_of_a_webcam"),
+    ("F9", "calls of the driver fail", "vivid's injections; every call of a scenario fails, once and for ever",
+     "a status and an errno for each, and nothing left behind",
+     "V4l2Camera.GivesAllBackWhicheverCallFails V4l2Camera.OneRefusalOfACallIsNotTheEnd the_camera_port_on_a_webcam"),
+    ("F10", "damaged MJPEG", "every truncation of small pictures, flipped bits, no codes, wrong sizes; fuzzing",
+     "an error or a whole picture; a part of one is never judged",
+     "GrayFrameOfMjpeg.IsAnErrorForEveryTruncation GrayFrameOfMjpeg.WithFlippedBitsIsAnErrorOrAnImage "
+     "GrayFrameOfMjpeg.ByLibjpegIsTheSameWithoutItsCodes"),
+    ("F11", "the driver gives another size or stride, or fills a part of the frame", "simulated; vivid after a larger size",
+     "rows are read by their stride; what was not asked for is refused",
+     "V4l2Camera.ReadsRowsWithPadding V4l2Camera.RefusesAFormatThatIsNotTheOneAskedFor "
+     "V4l2Camera.LetsTheDriverFillTheWholeFrame"),
+    ("F12", "a multi-planar driver", "vivid with multiplanar=2", "the same bytes",
+     "V4l2Camera.ReadsMultiPlanarDrivers pictures_through_a_multi_planar_driver"),
+    ("F13", "the serial port is pulled", "an FTDI adapter of the emulated board, a pty",
+     "opened again by its identity; records whole, the newest kept; no verdict waits",
+     "SerialLink.OpensALostPortEverySecondAndTellsOnce a_usb_serial_adapter_that_is_pulled "
+     "a_serial_line_that_is_stuck_or_gone_moves_no_verdict"),
+    ("F14", "nobody reads the serial port", "a 16550 whose other end stops", "nothing waits; records whole or not at all",
+     "RecordsAtRandom.ArriveWholeAndInOrderOrAreCounted Daemon.ASerialLineThatIsStuckOrGoneMovesNoVerdict "
+     "a_serial_port_whose_reader_stops"),
+    ("F15", "hostile bytes on the serial port", "random bytes, endless lines, floods; fuzzing",
+     "errors are answered, nothing changes, triggers go on",
+     "Command.ReadsAnyBytes Daemon.AFloodOfCommandsDoesNotKeepItFromItsTriggers LinesAtRandom.NeverHoldAControlByte"),
+    ("F16", "a GPIO line is taken", "the board's power button", "its holder is named, status 69",
+     "what_is_wrong_at_the_start_is_said_in_a_line lines_of_a_gpio_chip"),
+    ("F17", "triggers bounce, come in bursts, or while busy", "edges from outside the board; simulated",
+     "each has one answer; lost ones are counted by the kernel's numbers",
+     "Daemon.CountsTriggersThatCameWhileBusy Daemon.EveryTriggerHasOneAnswerWhateverComes lines_of_a_gpio_chip"),
+    ("F18", "the disk is full, or can only be read", "every call of storing fails with ENOSPC, EROFS, EDQUOT",
+     "told once and when it ends; inspection goes on",
+     "RingKeeper.TellsOfAFullDiskOnceAndOfItsEndOnce RingFolder.HoldsWholePairsAfterTheFailureOfEveryCall "
+     "Daemon.TellsThatPicturesOfFailuresCannotBeKept"),
+    ("F19", "the disk hangs", "a store that blocks", "pictures are dropped and counted; no verdict waits",
+     "FailureRing.NeverWaitsForADiskThatHangs BackgroundWriter.EndsWithinItsPatience"),
+    ("F20", "power is cut while something is saved", "the emulated board is killed at random moments; a model of a disk",
+     "never a bad file, never older than what was acknowledged",
+     "GenerationsAndPowerCuts.NeverLoseWhatWasAcknowledged GenerationsAndPowerCuts.AreSeenByThisTestOnADiskThatLies"),
+    ("F21", "wrong settings or jobs", "files with faults; fuzzing",
+     "status 78 with file, line and column; read anew, the old ones stay",
+     "Settings.SayWhatIsWrongAndWhere what_is_wrong_at_the_start_is_said_in_a_line "
+     "settings_are_read_anew_between_two_frames"),
+    ("F22", "signals at any moment", "1000 signals without a pause", "ends within a second, lines inactive; reloads whole",
+     "signals_at_any_moment_do_no_harm verdicts_come_out_on_lines_serial_and_as_json"),
+    ("F23", "the clock steps by years", "date -s on the board", "nothing fires, no time jumps",
+     "time_may_step_by_a_year"),
+    ("F30", "two daemons, one camera, port or line", "started twice", "the second says who holds it, status 69",
+     "what_is_wrong_at_the_start_is_said_in_a_line"),
+    ("F31", "a dark, saturated, covered or defocused picture", "rendered scenes, blurred and dimmed",
+     "ERROR and an event of its own, never NG",
+     "ImageQuality.TellsADeadLampFromABadPart ImageQuality.FallsAsTheBlurGrows "
+     "Daemon.TellsABadPictureApartFromABadPart"),
+]
+MISSING = [
+    ("F24 to F26", "network servers", "the daemon has none"),
+    ("F27", "limits of memory", "the heap is counted after READY, and no allocation is made to fail before"),
+    ("F28", "a stage hangs", "the watchdog is fed by whole turns alone; no test makes a stage hang under systemd"),
+    ("F29", "no file left to open", "EMFILE is among the errors that every call is made to fail with; not run under a limit"),
+]
+
+
+def page(figures):
+    lines = ["# Faults", "",
+             "Made by `tests/board/faults_page.py`. What goes wrong in the field, how it is provoked here, what must become of",
+             "it, and the tests that prove it. Cases in small letters run on the emulated board, with Debian's kernel and its",
+             "drivers (`tests/run board`); the others on the host, with sanitizers.", "",
+             "| | fault | provoked by | must | proved by |", "|---|---|---|---|---|"]
+    for name, fault, how, must, proofs in ROWS:
+        lines.append(f"| {name} | {fault} | {how} | {must} | {'<br>'.join(f'`{proof}`' for proof in proofs.split())} |")
+    lines += ["", "## Not proved", "", "| | fault | |", "|---|---|---|"]
+    lines += [f"| {name} | {fault} | {why} |" for name, fault, why in MISSING]
+    lines += ["", "## Figures", "",
+              "Of one run on the emulated board. Its processor is software, beside which others run: real boards are faster.", "",
+              "| | |", "|---|---|"]
+    lines += [f"| {name} | {value} |" for name, value in sorted(figures.items())]
+    return "\n".join(lines) + "\n"
+
+
+def missing_proofs():
+    sources = "\n".join(path.read_text() for path in TESTS.rglob("*_test.cpp"))
+    scripts = "\n".join(path.read_text() for path in (TESTS / "board").glob("*.py") if path.name != Path(__file__).name)
+    for row in ROWS:
+        for proof in row[4].split():
+            there = f"TEST({proof.replace('.', ', ')})" in sources if "." in proof else f"def {proof}(" in scripts
+            if not there:
+                yield f"{row[0]}: there is no {proof}"
+
+
+def main():
+    words = sys.argv[1:]
+    checked = words[1] if words[:1] == ["--check"] else None
+    figures = {}
+    for path in words[2 if checked else 0:]:
+        for line in Path(path).read_text().splitlines():
+            name, value = line.split(" = ", 1)
+            figures[name] = value
+    text = page(figures)
+    complaints = list(missing_proofs())
+    if checked is None:
+        print(text, end="")
+    else:
+        def without_numbers(page_text):
+            return re.sub(r"\d+", "#", page_text.split("## Figures")[1 if figures else 0])
+        def rows(page_text):
+            return page_text.split("## Figures")[0]
+        seen = Path(checked).read_text()
+        if rows(seen) != rows(text):
+            complaints.append(f"{checked} is not what faults_page.py prints")
+        if figures and without_numbers(seen) != without_numbers(text):
+            complaints.append(f"{checked} has other figures than were measured: look at both, then print it anew")
+    for complaint in complaints:
+        print(f"faults_page: {complaint}", file=sys.stderr)
+    if not complaints and checked:
+        print(f"{checked}: {len(ROWS)} faults, {len(figures)} figures")
+    sys.exit(1 if complaints else 0)
+
+
+if __name__ == "__main__":
+    main()
