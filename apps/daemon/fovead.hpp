@@ -32,6 +32,7 @@ enum DaemonExit : int {
     daemon_ok = 0,
     daemon_usage = 64,        ///< words that it does not know
     daemon_unavailable = 69,  ///< a device is not there, or another has it
+    daemon_no_memory = 71,    ///< before READY; after it none is asked for
     daemon_config = 78,       ///< the settings or a job are wrong
 };
 
@@ -180,7 +181,8 @@ inline const char* fovead_help() {
            "  --version               print the version\n"
            "  --help                  print this\n\n"
            "SIGHUP reads settings and jobs anew, SIGTERM ends with all lines inactive.\n"
-           "Ends with 0, 64 for wrong words, 69 if a device is missing or taken, 78 if settings are wrong.\n";
+           "Ends with 0, 64 for wrong words, 69 if a device is missing or taken, 71 without memory, 78 if "
+           "settings are wrong.\n";
 }
 
 /// Runs by the files until a signal ends it; reads them anew where one says so.

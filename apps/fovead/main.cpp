@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -65,7 +66,13 @@ int main(int count, char** words) {
     Streams streams;
     const fovea::linux_port::NotifyEnvironment environment = {
         std::getenv("NOTIFY_SOCKET"), std::getenv("WATCHDOG_USEC"), std::getenv("WATCHDOG_PID")};
-    return fovea::apps::fovead(std::vector<std::string>(words + 1, words + count), streams,
-                               fovea::linux_port::Kernel(), environment, pipe_ends[0], take_signals,
-                               FOVEA_VERSION);
+    try {
+        return fovea::apps::fovead(std::vector<std::string>(words + 1, words + count), streams,
+                                   fovea::linux_port::Kernel(), environment, pipe_ends[0], take_signals,
+                                   FOVEA_VERSION);
+    } catch (const std::bad_alloc&) {
+        // In front of READY, or while settings are read anew.
+        std::fputs("fovead: out of memory: give it more, or take a smaller picture\n", stderr);
+        return fovea::apps::daemon_no_memory;
+    }
 }

@@ -232,6 +232,22 @@ def time_may_step_by_a_year():
         same(board.stop()[0], 0)
 
 
+@case
+def limits_of_memory_and_of_files_are_told():
+    with rig(VIVID + BY_COMMAND + LINES, cameras=1) as board:
+        start = "fovead --config /test/fovead.toml 2>&1 > /dev/null < /dev/null"
+        status, said = board.run(f"(ulimit -v 5000; {start})")
+        same((status, said), (71, ["fovead: out of memory: give it more, or take a smaller picture"]))
+        refused = set()
+        for files in range(4, 16):
+            status, said = board.run(f"(ulimit -n {files}; timeout 2 {start})")
+            if status == 143:
+                break
+            refused.add(status)
+            holds(" ".join(said), "Too many open files")
+        same((status, refused), (143, {69}))
+
+
 if __name__ == "__main__":
     words = sys.argv[2:]
     path = words[words.index("--figures") + 1] if "--figures" in words else None

@@ -741,6 +741,25 @@ def board_proofs(folder):
 board_alarms = [board_binary, board_proofs]
 
 
+@alarm
+def faults_page(folder):
+    """A page of another text than is printed, a proof that is gone, figures that are missing."""
+    copies = PROJECT / "tests/board/faults_page.py"
+    page = PROJECT / "docs/faults.md"
+    other = write(folder, {"other.md": page.read_text().replace("never lent", "lent")}) / "other.md"
+    yield "the page as it is", [copies, "--check", page], None
+    yield "another text", [copies, "--check", other], "is not what faults_page.py prints"
+    figures = write(folder, {"figures": "a figure that nobody knows = 3 us\n"}) / "figures"
+    yield "other figures", [copies, "--check", page, figures], "has other figures"
+    tree = folder / "tests"
+    shutil.copytree(PROJECT / "tests/board", tree / "board")
+    shutil.copytree(PROJECT / "tests/apps/daemon", tree / "apps/daemon")
+    shutil.copytree(PROJECT / "tests/ports", tree / "ports")
+    shutil.copytree(PROJECT / "tests/hal", tree / "hal")
+    replace(tree / "hal/frame_time_test.cpp", "RunsOverFromTheLastNumberToTheFirst", "IsCalledOtherwise")
+    yield "a proof that is gone", [tree / "board/faults_page.py", "--check", page], "F7: there is no SequenceGaps"
+
+
 # ---- All of them --------------------------------------------------------------------------
 
 def ring(function, folder):
