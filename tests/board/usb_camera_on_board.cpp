@@ -80,6 +80,11 @@ public:
         return lines;
     }
 
+    std::string last_told() const {
+        const std::vector<std::string> lines = told();
+        return "the camera said last: " + (lines.empty() ? "nothing" : lines.back());
+    }
+
 private:
     std::string told_;
     std::vector<std::string> options_;
@@ -144,27 +149,34 @@ bool exact(const hal::FrameInfo& info, const test::CameraMode& mode) {
 }
 
 void modes(Proof& proof) {
-    const PluggedIn plugged({});
+    // What was pulled a moment ago may still have its nodes.
+    await_nodes(any_camera, 0);
+    const PluggedIn plugged({}, "/tmp/modes");
     await_nodes(any_camera, 2);
     for (const auto& [format, name] :
          {std::pair{hal::PixelFormat::yuyv, "yuyv"}, std::pair{hal::PixelFormat::gray8, "grey"},
           std::pair{hal::PixelFormat::mjpeg, "mjpeg"}}) {
         Camera camera;
         const std::string what = std::string("USB, ") + describe(format);
-        if (!proof.status(begin(camera, any_camera, format), Status::ok, what + ": start")) continue;
+        Status got = begin(camera, any_camera, format);
+        if (!proof.check(got == Status::ok, what + ": start",
+                         std::string(describe(got)) + ", " + fault_of(camera) + ", " + plugged.last_told()))
+            continue;
         int right = 0;
         int rising = 0;
         std::uint32_t last = 0;
         Kernel kernel;
         for (int k = 0; k < 10; ++k) {
             Camera::Frame frame;
-            if (camera.next(2 * second, frame) != Status::ok) break;
+            if ((got = camera.next(5 * second, frame)) != Status::ok) break;
             if (exact(frame.info(), *test::camera_mode(name))) ++right;
             const std::uint32_t number = test::test_frame_number(frame.info().planes[0].bytes.data());
             if ((k == 0 || number > last) && frame.info().time_us <= kernel.monotonic_us()) ++rising;
             last = number;
         }
-        proof.equal(right, 10, what + ": frames as they were sent, byte by byte");
+        proof.check(right == 10, what + ": 10 frames as they were sent, byte by byte",
+                    std::to_string(right) + ", then " + describe(got) + ", " + fault_of(camera) + ", " +
+                        plugged.last_told());
         proof.equal(rising, 10, what + ": in their order, none of the future");
         proof.equal(camera.counters().damaged, 0u, what + ": none is damaged");
         proof.equal(camera.interval_us(), 33333, what + ": the rate is what was asked for");
