@@ -16,6 +16,8 @@
 #include <op/ops_command.hpp>
 #include <op/picture_commands.hpp>
 #include <op/sheet_command.hpp>
+#include <probe/doctor_command.hpp>
+#include <probe/probe_command.hpp>
 
 #ifndef FOVEA_VERSION
 #define FOVEA_VERSION "unknown"
@@ -37,7 +39,8 @@ std::vector<Entry<Io>> commands() {
             {compile_help(), compile_command<Io>}, {make_part_help(), make_part_command<Io>},
             {op_help(), op_command<Io>},           {sheet_help(), sheet_command<Io>},
             {ops_help(), ops_command<Io>},         {info_help(), info_command<Io>},
-            {compare_help(), compare_command<Io>}};
+            {compare_help(), compare_command<Io>}, {probe_help(), probe_command<Io>},
+            {doctor_help(), doctor_command<Io>}};
 }
 
 template <class Io>
