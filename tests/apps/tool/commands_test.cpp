@@ -62,6 +62,14 @@ TEST_F(Tool, TellsItsVersion) {
     EXPECT_EQ(io.out, "fovea unknown\n");
 }
 
+TEST_F(Tool, PrintsAManualPageWithAllCommandsAndOptions) {
+    EXPECT_EQ(run({"--manual"}), apps::exit_ok);
+    for (const std::string& name : names)
+        EXPECT_NE(io.out.find("\n.SS fovea " + apps::manual_text(name)), std::string::npos) << name;
+    EXPECT_NE(io.out.find("\n.B \\-\\-size WxH\n"), std::string::npos);
+    EXPECT_EQ(apps::manual_text(".a-b\n'c.d\\"), "\\&.a\\-b\n\\&'c.d\\e");
+}
+
 TEST_F(Tool, SuggestsTheNearestCommandForAnUnknownOne) {
     refuses({"gaug"}, "fovea: unknown command gaug; did you mean gauge? `fovea --help` lists them");
     refuses({"Teach", "x"}, "fovea: unknown command Teach; did you mean teach? `fovea --help` lists them");
