@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// TestMachine: a machine with cameras, serial ports and GPIO chips, as Linux shows it in /sys, /dev and /proc;
-// and the calls into it. Its folders are those of a test, its devices are simulated. Host tests only.
+// TestMachine: a machine with cameras, serial ports and GPIO chips, as Linux shows it in /sys, /dev and
+// /proc; and the calls into it. Its folders are those of a test, its devices are simulated. Host tests only.
 #pragma once
 
 #include <linux/videodev2.h>
