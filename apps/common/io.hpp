@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What a command of the tool talks to: files and two streams of text.
+// What a command of the tool talks to: files, two streams of text, and the devices of a machine.
 //
 // A command is a template over Io, so that tests run it on storage in memory:
 //   Io::Storage      a hal storage that also tells problem()
 //   Storage& storage()
 //   void print(const std::string& text)      results, for the standard output
 //   void complain(const std::string& text)   one line about an error or a notice, for the standard error
+//   system(), machine()   the calls into a kernel, and where it shows its devices: see probe/machine.hpp
 #pragma once
 
 #include <string>

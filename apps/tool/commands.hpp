@@ -16,6 +16,9 @@
 #include <op/ops_command.hpp>
 #include <op/picture_commands.hpp>
 #include <op/sheet_command.hpp>
+#include <probe/doctor_command.hpp>
+#include <probe/probe_command.hpp>
+#include <tool/manual.hpp>
 
 #ifndef FOVEA_VERSION
 #define FOVEA_VERSION "unknown"
@@ -37,7 +40,8 @@ std::vector<Entry<Io>> commands() {
             {compile_help(), compile_command<Io>}, {make_part_help(), make_part_command<Io>},
             {op_help(), op_command<Io>},           {sheet_help(), sheet_command<Io>},
             {ops_help(), ops_command<Io>},         {info_help(), info_command<Io>},
-            {compare_help(), compare_command<Io>}};
+            {compare_help(), compare_command<Io>}, {probe_help(), probe_command<Io>},
+            {doctor_help(), doctor_command<Io>}};
 }
 
 template <class Io>
@@ -48,7 +52,9 @@ std::string overview() {
         const std::string name = std::string("  ") + entry.help.name;
         text += name + std::string(14 - name.size(), ' ') + entry.help.summary + "\n";
     }
-    return text + "\n`fovea COMMAND --help` tells more. `fovea --version` tells the version.\n";
+    return text +
+           "\n`fovea COMMAND --help` tells more. `fovea --version` tells the version.\n"
+           "`fovea --manual` prints all of it as a manual page.\n";
 }
 
 }  // namespace detail
@@ -63,6 +69,12 @@ ExitCode run_command(Io& io, const std::vector<std::string>& words) {
     }
     if (name == "--version") {
         io.print("fovea " FOVEA_VERSION "\n");
+        return exit_ok;
+    }
+    if (name == "--manual") {
+        std::vector<Command> helps;
+        for (const detail::Entry<Io>& entry : detail::commands<Io>()) helps.push_back(entry.help);
+        io.print(manual_page(helps));
         return exit_ok;
     }
     std::vector<std::string> names;

@@ -6,17 +6,20 @@
 #include <vector>
 
 #include <fovea/linux/file_storage.hpp>
+#include <fovea/linux/kernel.hpp>
 
 #include <tool/commands.hpp>
 
 namespace {
 
-/// Files of the system, standard output and standard error.
+/// Files and devices of the system, standard output and standard error.
 class LinuxIo {
 public:
     using Storage = fovea::linux_port::FileStorage<>;
 
     Storage& storage() { return storage_; }
+    fovea::linux_port::Kernel system() { return {}; }
+    fovea::apps::MachineFolders machine() const { return {}; }
     void print(const std::string& text) {
         if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) failed_ = true;
     }

@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <fovea/linux/kernel.hpp>
 #include <fovea/simulated/memory_storage.hpp>
+
+#include <probe/machine.hpp>
 
 namespace fovea::test {
 
@@ -17,6 +20,11 @@ public:
     using Storage = simulated::MemoryStorage;
 
     Storage& storage() { return files; }
+    /// A machine without devices.
+    linux_port::Kernel system() { return {}; }
+    apps::MachineFolders machine() const {
+        return {"/nowhere/sys", "/nowhere/dev", "/nowhere/proc", "/nowhere/group"};
+    }
     void print(const std::string& text) { out += text; }
     void complain(const std::string& text) { complaints.push_back(text); }
 

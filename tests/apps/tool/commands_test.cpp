@@ -30,7 +30,8 @@ protected:
     TestIo io;
 };
 
-const Words names = {"gauge", "teach", "compile", "make-part", "op", "ops", "info", "compare"};
+const Words names = {"gauge", "teach", "compile", "make-part", "op",
+                     "ops",   "info",  "compare", "probe",     "doctor"};
 
 TEST_F(Tool, ListsItsCommandsWhenAskedForHelp) {
     for (const char* word : {"--help", "-h", "help"}) {
@@ -61,6 +62,14 @@ TEST_F(Tool, TellsItsVersion) {
     EXPECT_EQ(io.out, "fovea unknown\n");
 }
 
+TEST_F(Tool, PrintsAManualPageWithAllCommandsAndOptions) {
+    EXPECT_EQ(run({"--manual"}), apps::exit_ok);
+    for (const std::string& name : names)
+        EXPECT_NE(io.out.find("\n.SS fovea " + apps::manual_text(name)), std::string::npos) << name;
+    EXPECT_NE(io.out.find("\n.B \\-\\-size WxH\n"), std::string::npos);
+    EXPECT_EQ(apps::manual_text(".a-b\n'c.d\\"), "\\&.a\\-b\n\\&'c.d\\e");
+}
+
 TEST_F(Tool, SuggestsTheNearestCommandForAnUnknownOne) {
     refuses({"gaug"}, "fovea: unknown command gaug; did you mean gauge? `fovea --help` lists them");
     refuses({"Teach", "x"}, "fovea: unknown command Teach; did you mean teach? `fovea --help` lists them");
@@ -86,6 +95,8 @@ TEST_F(Tool, EndsWithTwoWhenACommandIsMisused) {
         for (const Words& rest : {Words{}, Words{"--bogus"}, Words{"--out"}, Words{"-"}}) {
             // The list of operators is what somebody wants who says no more, and - is a picture.
             if ((name == "ops" && rest.empty()) || (name == "info" && rest == Words{"-"})) continue;
+            // These two look at the machine.
+            if ((name == "probe" || name == "doctor") && rest.empty()) continue;
             Words words = {name};
             words.insert(words.end(), rest.begin(), rest.end());
             EXPECT_EQ(run(words), apps::exit_failed) << name;

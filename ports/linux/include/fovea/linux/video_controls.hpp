@@ -98,6 +98,24 @@ int exchange_value(System& system, int file, unsigned long request, const v4l2_q
 
 }  // namespace detail
 
+/// True for a control that a number can be written to.
+constexpr bool can_be_set(const v4l2_query_ext_ctrl& control) {
+    return detail::holds_number(control) &&
+           (control.flags & (V4L2_CTRL_FLAG_READ_ONLY | V4L2_CTRL_FLAG_DISABLED)) == 0;
+}
+
+/// What a control is set to.
+///
+/// Errors  unsupported for one that holds no number or tells none; otherwise as the call says
+template <class System>
+Status control_value(System& system, int file, const v4l2_query_ext_ctrl& control, std::int64_t& value,
+                     Fault& fault) {
+    if (!detail::holds_number(control) || (control.flags & V4L2_CTRL_FLAG_WRITE_ONLY) != 0)
+        return unusable(fault, "VIDIOC_G_EXT_CTRLS", Status::unsupported, "it has no value to tell");
+    const int got = detail::exchange_value(system, file, VIDIOC_G_EXT_CTRLS, control, value);
+    return got < 0 ? refused(fault, "VIDIOC_G_EXT_CTRLS", got) : Status::ok;
+}
+
 /// The control after that of an id, which is 0 for the first. not_found at the end of the list.
 template <class System>
 Status next_control(System& system, int file, std::uint32_t id, v4l2_query_ext_ctrl& found, Fault& fault) {
@@ -144,8 +162,7 @@ Status set_controls(System& system, int file, Span<ControlSetting> settings, Fau
                 continue;
             }
             if (detail::is_automatic(control) != (round == automatic)) continue;
-            if (!detail::holds_number(control) ||
-                (control.flags & (V4L2_CTRL_FLAG_READ_ONLY | V4L2_CTRL_FLAG_DISABLED)) != 0) {
+            if (!can_be_set(control)) {
                 setting.status =
                     unusable(fault, "VIDIOC_S_EXT_CTRLS", Status::bad_argument, "nothing can be set there");
                 continue;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+//
+// The files of the daemon: its settings, and the jobs beside them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <fovea/base/status.hpp>
+#include <fovea/linux/fault.hpp>
+#include <fovea/linux/file_storage.hpp>
+#include <fovea/linux/folder.hpp>
+#include <fovea/linux/kernel.hpp>
+
+#include <common/io.hpp>
+#include <daemon/jobs.hpp>
+#include <daemon/settings.hpp>
+#include <daemon/settings_reader.hpp>
+
+namespace fovea::apps {
+
+/// Settings with their jobs, as they stand in files; problem is one line for a person.
+struct DaemonFiles {
+    Settings settings;
+    JobList jobs;
+    int job = 0;
+    std::string problem;
+    /// The settings could be read, whatever became of the jobs.
+    bool settings_good = false;
+};
+
+/// A path below the folder of another file, if it is not absolute.
+inline std::string beside(const std::string& file, const std::string& path) {
+    const std::size_t slash = file.rfind('/');
+    if (path.empty() || path[0] == '/' || slash == std::string::npos) return path;
+    return file.substr(0, slash + 1) + path;
+}
+
+/// Reads the settings and all jobs.
+inline DaemonFiles read_daemon_files(const std::string& path) {
+    DaemonFiles files;
+    linux_port::FileStorage<> storage({}, std::size_t{1} << 20);
+    const Result<Span<const std::uint8_t>> text = storage.load(path.c_str());
+    if (!text) {
+        files.problem = file_problem(path, text.status(), storage);
+        return files;
+    }
+    const SettingsProblem found = read_settings(std::string(text->begin(), text->end()), files.settings);
+    if (!found.problem.empty()) {
+        files.problem = path + ":" + std::to_string(found.place.line) + ":" +
+                        std::to_string(found.place.column) + ": " + found.problem;
+        return files;
+    }
+    files.settings_good = true;
+    const std::string folder = beside(path, files.settings.jobs.folder.c_str());
+    std::vector<std::string> names;
+    linux_port::Kernel kernel;
+    linux_port::Fault fault;
+    const Status listed = linux_port::each_entry(kernel, folder.c_str(), fault, [&](const char* name) {
+        names.push_back(name);
+        return Status::ok;
+    });
+    if (listed != Status::ok) {
+        files.problem =
+            folder + ": " + linux_port::reason(fault) + "; the folder of the jobs is set in [jobs]";
+        return files;
+    }
+    files.problem = files.jobs.read(storage, folder, job_names(names));
+    if (!files.problem.empty()) return files;
+    const Text<63>& start = files.settings.jobs.start;
+    files.job = start.empty() ? 1 : files.jobs.find({start.c_str(), start.size()}, 0);
+    if (files.job == 0) files.problem = path + ": [jobs] start: no job " + start.c_str() + " in " + folder;
+    return files;
+}
+
+}  // namespace fovea::apps
