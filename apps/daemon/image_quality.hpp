@@ -171,7 +171,7 @@ constexpr int sample_step(Size size) {
     return step;
 }
 
-constexpr int thousandths(std::int64_t part, std::int64_t whole) {
+constexpr int in_thousandths(std::int64_t part, std::int64_t whole) {
     return static_cast<int>((2000 * part + whole) / (2 * whole));
 }
 
@@ -195,8 +195,8 @@ inline Result<ImageQuality> image_quality(ImageView<const Gray8> src, const Imag
         if (level >= limits.saturated_from) saturated += counts[level];
     }
     ImageQuality quality;
-    quality.dark = detail::thousandths(dark, all);
-    quality.saturated = detail::thousandths(saturated, all);
+    quality.dark = detail::in_thousandths(dark, all);
+    quality.saturated = detail::in_thousandths(saturated, all);
     quality.mean = static_cast<int>((2 * sum + all) / (2 * all));
     constexpr std::uint32_t outermost = whole_share / 256;
     const Result<Gray8> low = quantile(histogram, outermost);

@@ -317,10 +317,7 @@ std::string LinuxWorld<TheOpening>::lay_out() {
     gray_memory_.resize(static_cast<std::size_t>(gray));
     judge_memory_.resize(static_cast<std::size_t>(judge));
     sample_memory_.resize(static_cast<std::size_t>(size.area() + 64));
-    limits_.most_dark = static_cast<int>(settings_.quality.most_dark);
-    limits_.most_saturated = static_cast<int>(settings_.quality.most_saturated);
-    limits_.least_contrast = static_cast<int>(settings_.quality.least_contrast);
-    limits_.least_sharpness = static_cast<int>(settings_.quality.least_sharpness);
+    limits_ = quality_limits(settings_.quality);
     if (settings_.failures.folder.empty()) return "";
     constexpr int places = 4;
     failure_memory_.resize(static_cast<std::size_t>(FailureRing<System>::memory_bytes(places, size)));

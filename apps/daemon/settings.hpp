@@ -13,6 +13,7 @@
 #include <fovea/linux/replay_files.hpp>
 #include <fovea/linux/text.hpp>
 
+#include <daemon/image_quality.hpp>
 #include <daemon/verdict_lines.hpp>
 
 namespace fovea::apps {
@@ -91,6 +92,16 @@ struct Settings {
         std::int64_t least_sharpness = 150;
     } quality;
 };
+
+/// The limits of pictures that can be judged.
+inline ImageQualityLimits quality_limits(const Settings::Quality& settings) {
+    ImageQualityLimits limits;
+    limits.most_dark = static_cast<int>(settings.most_dark);
+    limits.most_saturated = static_cast<int>(settings.most_saturated);
+    limits.least_contrast = static_cast<int>(settings.least_contrast);
+    limits.least_sharpness = static_cast<int>(settings.least_sharpness);
+    return limits;
+}
 
 enum class SettingType : std::uint8_t { text, integer, boolean, choice };
 

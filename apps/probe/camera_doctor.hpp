@@ -248,7 +248,7 @@ private:
         if (!gray)
             return checks_.fail("light", std::string("the frame cannot be read: ") + describe(gray.status()),
                                 "take another pixel_format in [camera]");
-        check_light(light_of(*gray), settings_.quality, checks_);
+        check_light(*gray, settings_.quality, checks_);
     }
 
     /// What the kernel refused, with whoever has the camera.

@@ -89,17 +89,18 @@ protected:
 TEST_F(Doctor, FindsNothingWhereNothingIsWrong) {
     EXPECT_EQ(run(), apps::exit_ok);
     const std::string config = machine.folder.file("etc/fovead.toml");
-    EXPECT_EQ(io.out, "ok    settings  " + config + "\n" +
-                          "ok    jobs      1, and it begins with disc\n"
-                          "ok    camera    " +
-                          machine.path("video0") +
-                          ": simulated\n"
-                          "ok    mode      gray8 (GREY) 64x48: the best of those that are fast enough\n"
-                          "ok    controls  none is set: the camera chooses exposure and gain itself\n"
-                          "ok    stream    it has started\n"
-                          "ok    frames    30 frames, 25 a second\n"
-                          "ok    stamps    frames are 0 ms old at most when they come\n"
-                          "ok    light     mean 110, 0.0 % dark, 0.0 % saturated, contrast 180\n");
+    EXPECT_EQ(io.out,
+              "ok    settings  " + config + "\n" +
+                  "ok    jobs      1, and it begins with disc\n"
+                  "ok    camera    " +
+                  machine.path("video0") +
+                  ": simulated\n"
+                  "ok    mode      gray8 (GREY) 64x48: the best of those that are fast enough\n"
+                  "ok    controls  none is set: the camera chooses exposure and gain itself\n"
+                  "ok    stream    it has started\n"
+                  "ok    frames    30 frames, 25 a second\n"
+                  "ok    stamps    frames are 0 ms old at most when they come\n"
+                  "ok    light     mean 110, 50.0 % dark, 0.0 % saturated, contrast 180, sharpness 1000\n");
     EXPECT_EQ(io.errors(), "");
 }
 
@@ -242,12 +243,15 @@ TEST_F(Doctor, LooksAtTheTimesOfFrames) {
 
 TEST_F(Doctor, LooksAtTheLight) {
     std::fill(scene.begin(), scene.end(), std::uint8_t{3});
-    warns("light", "mean 3, 100.0 % dark, 0.0 % saturated, contrast 0: too dark", "take the cap off");
+    warns("light", "mean 3, 100.0 % dark, 0.0 % saturated, contrast 0, sharpness 0: too dark",
+          "take the cap off");
     std::fill(scene.begin(), scene.end(), std::uint8_t{255});
-    warns("light", "mean 255, 0.0 % dark, 100.0 % saturated, contrast 0: too bright", "expose shorter");
+    warns("light", "mean 255, 0.0 % dark, 100.0 % saturated, contrast 0, sharpness 0: too bright",
+          "expose shorter");
     std::fill(scene.begin(), scene.end(), std::uint8_t{120});
     scene[5] = 0;
-    warns("light", "mean 120, 0.0 % dark, 0.0 % saturated, contrast 0: nothing stands out", "look at focus");
+    warns("light", "mean 120, 0.0 % dark, 0.0 % saturated, contrast 0, sharpness 1000: nothing stands out",
+          "look at the light");
 }
 
 TEST_F(Doctor, TriesTheSerialPort) {
