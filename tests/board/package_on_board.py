@@ -18,7 +18,8 @@ from daemon_rig import RECIPE
 from emulated_board import EmulatedBoard
 
 PACKAGE = Path(sys.argv[1]).resolve()
-UNIT = Path(__file__).resolve().parents[2] / "apps/fovead/fovead.service"
+ROOT = Path(__file__).resolve().parents[2]
+UNIT = ROOT / "apps/fovead/fovead.service"
 # The dpkg of busybox knows no conffiles.
 INSTALL = """
 set -e
@@ -164,6 +165,31 @@ part purged; /usr/bin/dpkg --force-bad-path -P fovead > /tmp/dpkg 2>&1; cat /tmp
         same(9000 < checks["frames"]["interval_us"] < 110000, True)
         same(parts["again"], "1\n/etc/fovea/fovead.toml\n")  # kept when the package comes again, and when it goes
         same("/etc/fovea/fovead.toml" in parts["purged"].splitlines(), False)
+
+
+@case
+def the_first_measurement_of_the_page_is_one():
+    lines = re.search(r"```sh\n(.*?)```", (ROOT / "docs/daemon.md").read_text(), re.S)[1]
+    install, _, rest = lines.partition("\n")
+    same((install, rest.count("\n")), ("sudo dpkg -i fovead_0.1.0_arm64.deb", 9))
+    script = f"""
+rm /etc/fovea/jobs/disc.toml  # the page brings its own
+cd /tmp
+sudo() {{ "$@"; }}
+systemctl() {{ [ "$*" = "start fovead" ]; fovead > /tmp/said 2> /tmp/complaints & }}
+journalctl() {{ says '"ev":"result"'; part journal; head -n 3 /tmp/said; }}
+# A dark square on white: a part that can be taught.
+v4l2-ctl -d /dev/video0 --set-ctrl=test_pattern=6,osd_text_mode=2,show_square=1
+{SAYS}
+part page
+{rest}"""
+    with booted(script, packages=["v4l-utils"], cameras=1) as (parts, _):
+        holds(parts["page"], "chosen: gray8 (GREY) ")
+        holds(parts["page"], "1 good part, dark on bright")
+        same(re.findall("^FAIL.*", parts["page"], re.M), [])
+        result = [event for event in map(json.loads, parts["journal"].splitlines()) if event["ev"] == "result"][0]
+        same((result["job"], result["verdict"], result["values"][0]), (
+            "part", "OK", {"name": "length", "value": 256.0, "verdict": "ok"}))
 
 
 def allowed_calls():
