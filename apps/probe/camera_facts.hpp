@@ -47,12 +47,12 @@ struct CameraFacts {
     std::vector<ControlFacts> controls;
 };
 
-/// "YUYV" of a four-character code.
+/// "YUYV" of a four-character code; "Y16-BE" where the higher byte comes first.
 inline std::string code_text(std::uint32_t code) {
     std::string text;
     for (int k = 0; k < 4; ++k) text += static_cast<char>(code >> (8 * k) & 127);
     while (!text.empty() && text.back() == ' ') text.pop_back();
-    return one_line(text);
+    return one_line(text) + ((code >> 31) != 0 ? "-BE" : "");
 }
 
 /// What a driver writes of itself, as one line.

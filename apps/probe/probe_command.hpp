@@ -111,7 +111,13 @@ inline std::string camera_text(const CameraFacts& facts, const linux_port::Camer
         rows.push_back(
             {hal::describe(mode.format), code_text(mode.code), size_text(mode), rate_text(mode.interval_us)});
     text += columns(rows);
-    if (!facts.unread.empty()) text += "  not read: " + listed(facts.unread) + "\n";
+    if (!facts.unread.empty()) {
+        // Some drivers have dozens: their codes tell enough.
+        std::vector<std::string> names = facts.unread;
+        for (std::string& name : names)
+            if (names.size() > 4) name = name.substr(0, name.find(' '));
+        text += "  not read: " + listed(names) + "\n";
+    }
     const linux_port::CameraChoice choice = choose(facts, wish);
     const std::string why = describe(choice.reason);
     text +=

@@ -101,6 +101,19 @@ TEST_F(Probe, SaysWhichModeAWishWouldGetAndWhy) {
               "yuyv (YUYV) 1280x720 at 5 frames/s: the best of those that are fast enough");
 }
 
+TEST_F(Probe, ListsManyFormatsThatItCannotReadByTheirCodes) {
+    auto& offered = machine.camera("video0", "soc/csi").offered;
+    for (const std::uint32_t code :
+         {V4L2_PIX_FMT_YVYU, V4L2_PIX_FMT_NV21, V4L2_PIX_FMT_Y16_BE, V4L2_PIX_FMT_HSV24, V4L2_PIX_FMT_H264}) {
+        offered.push_back({code, 64, 48, 40000});
+        machine.descriptions[code] = "a format";
+    }
+    EXPECT_EQ(run(), apps::exit_ok);
+    EXPECT_TRUE(io.says("  not read: YVYU, NV21, Y16-BE, HSV3 and H264\n")) << io.out;
+    EXPECT_EQ(run({"--json"}), apps::exit_ok);
+    EXPECT_EQ(lines()[0]["not_read"].items[2].text, "Y16-BE (a format)");
+}
+
 TEST_F(Probe, TellsTheSameToAProgram) {
     webcam();
     EXPECT_EQ(run({"--json", "--size", "640x480"}), apps::exit_ok);
