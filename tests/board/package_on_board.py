@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The package of fovead on the emulated board: package_on_board.py PACKAGE.deb [WORD...]
+"""The package of fovead on the emulated board: package_on_board.py PACKAGE.deb USB_CAMERA [WORD...]
 
-PACKAGE.deb is of arm64. dpkg of Debian installs it, and what it brought is run: the modes that fovea probe tells are
+PACKAGE.deb is of arm64, USB_CAMERA is usb_camera.cpp compiled for the board. dpkg of Debian installs it, and what it brought is run: the modes that fovea probe tells are
 those of v4l2-ctl, fovea doctor finds nothing, fovead judges by the settings that were installed, and what it asks of
 the kernel is what the filter of its service lets through.
 """
@@ -17,7 +17,7 @@ from cases import case, holds, run_cases, same
 from daemon_rig import RECIPE
 from emulated_board import EmulatedBoard
 
-PACKAGE = Path(sys.argv[1]).resolve()
+PACKAGE, USB_CAMERA = (Path(word).resolve() for word in sys.argv[1:3])
 ROOT = Path(__file__).resolve().parents[2]
 UNIT = ROOT / "apps/fovead/fovead.service"
 # The dpkg of busybox knows no conffiles.
@@ -47,7 +47,7 @@ def booted(script, packages=(), fetch=(), **options):
     with tempfile.TemporaryDirectory() as folder:
         recipe = Path(folder) / "disc.toml"
         recipe.write_text(RECIPE)
-        files = {"/test/fovead.deb": PACKAGE, "/test/disc.toml": recipe}
+        files = {"/test/fovead.deb": PACKAGE, "/test/disc.toml": recipe, "/test/usb_camera": USB_CAMERA}
         with EmulatedBoard(["sh", "-c", INSTALL + script], files=files, packages=["dpkg", "tar", *packages],
                            fetch={name: f"{folder}/{name.strip('/')}" for name in fetch}, seconds=120,
                            **options) as board:
@@ -124,6 +124,39 @@ def probe_tells_a_node_without_pictures_and_a_range_of_sizes():
         holds(parts["probe"], "\n  gray8       GREY  16x16 to 16384x8640 in steps of ")
         holds(parts["probe"], "chosen: gray8 (GREY) 1280x720 at 60 frames/s")
         holds(parts["probe"], "/dev/video1: vivid (vivid, platform:vivid-000): no pictures: this node gives no pictures")
+
+
+@case
+def a_camera_of_usb_is_named_by_its_identity_and_keeps_its_exposure():
+    script = """
+/test/usb_camera > /tmp/usb & until [ -e /dev/video1 ]; do sleep 0.1; done
+part probe; fovea probe --json
+cat >> /etc/fovea/fovead.toml << END
+[[control]]
+name = "exposure_time_absolute"
+value = 123
+[[control]]
+name = "auto_exposure"
+value = 1
+END
+sed -i 's,^device = "auto",device = "usb:1209:0001:0001",' /etc/fovea/fovead.toml
+part doctor; fovea doctor || echo "status $?"
+part after; v4l2-ctl -d /dev/video0 --get-ctrl=exposure_time_absolute,auto_exposure
+sed -i 's,^value = 123,value = 5001,' /etc/fovea/fovead.toml
+part wrong; fovea doctor || echo "status $?"
+"""
+    with booted(script, packages=["v4l-utils"], modules=["vhci-hcd", "uvcvideo"]) as (parts, _):
+        cameras = [json.loads(line) for line in parts["probe"].splitlines() if '"camera"' in line]
+        same([(camera["identity"], camera["pictures"]) for camera in cameras],
+             [("usb:1209:0001:0001", True), ("/dev/video1", False)])
+        controls = {control["name"]: control for control in cameras[0]["controls"]}
+        same(controls["exposure_time_absolute"]["inactive"], True)
+        same(re.findall(r"^FAIL.*", parts["doctor"], re.M), [])
+        holds(parts["doctor"], "ok    controls  2 set, and the camera has kept them\n")
+        same(parts["after"], "exposure_time_absolute: 123\nauto_exposure: 1 (Manual Mode)\n")
+        holds(parts["wrong"], "exposure_time_absolute = 5001: it takes 1 to 5000 in steps of 1\n")
+        same("stream" in parts["wrong"], False)
+        holds(parts["wrong"], "status 1\n")
 
 
 @case
@@ -236,4 +269,4 @@ kill $daemon; wait $tracer
         same([line for line in re.findall(r"^.*socket\(.*", trace, re.M) if "AF_UNIX" not in line], [])
 
 
-sys.exit(run_cases("package_on_board", sys.argv[2:]))
+sys.exit(run_cases("package_on_board", sys.argv[3:]))
