@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Command: what a PLC or a person says to the daemon on a serial line.
+// SerialCommand: what a PLC or a person says to the daemon on a serial line.
 //
 // A command is a line of ASCII, ended by CR, LF or both. Capitals do not count. "#" and up to 16 letters and
 // digits in front of it come back in front of the reply, so that replies can be told apart.
@@ -73,7 +73,7 @@ constexpr const char* describe(CommandError error) {
     return "";
 }
 
-struct Command {
+struct SerialCommand {
     CommandVerb verb = CommandVerb::none;
     CommandError error = CommandError::none;
     /// What is echoed, without its "#"; of a line that could not be read, too, where it began well.
@@ -89,15 +89,15 @@ inline constexpr std::ptrdiff_t longest_command_id = 16;
 inline constexpr std::ptrdiff_t longest_job_name = 63;
 
 /// Reads a line without its end. The spans of the answer lie in the line.
-constexpr Command read_command(Span<const char> line);
+constexpr SerialCommand read_command(Span<const char> line);
 
 /// Writes the reply to a command that failed: "#id ERR number reason", without an end.
-inline void reply_error(const Command& command, CommandError error, TextBuffer& reply) {
+inline void reply_error(const SerialCommand& command, CommandError error, TextBuffer& reply) {
     if (!command.id.empty()) reply.put('#').text(command.id).put(' ');
     reply.text("ERR ").number(static_cast<int>(error)).put(' ').text(describe(error));
 }
 /// Begins the reply to one that did not: "#id OK".
-inline TextBuffer& reply_ok(const Command& command, TextBuffer& reply) {
+inline TextBuffer& reply_ok(const SerialCommand& command, TextBuffer& reply) {
     if (!command.id.empty()) reply.put('#').text(command.id).put(' ');
     return reply.text("OK");
 }
@@ -153,7 +153,7 @@ constexpr int number_in(Span<const char> word) {
 
 }  // namespace detail
 
-constexpr Command read_command(Span<const char> line) {
+constexpr SerialCommand read_command(Span<const char> line) {
     struct Known {
         const char* word;
         CommandVerb verb;
@@ -166,7 +166,7 @@ constexpr Command read_command(Span<const char> line) {
         {"LAST?", CommandVerb::ask_last, false},  {"RDY?", CommandVerb::ask_ready, false},
         {"TEACH", CommandVerb::teach, true},      {"VER?", CommandVerb::ask_version, false},
     };
-    Command command;
+    SerialCommand command;
     if (line.size() > longest_command) command.error = CommandError::malformed;
     for (const char c : line)
         if (c < ' ' || c > '~') command.error = CommandError::malformed;

@@ -104,8 +104,8 @@ private:
     using Frame = typename std::remove_reference_t<decltype(std::declval<World&>().camera())>::Frame;
 
     void take_commands();
-    void obey(const Command& command);
-    CommandError change_job(const Command& command, TextBuffer& text);
+    void obey(const SerialCommand& command);
+    CommandError change_job(const SerialCommand& command, TextBuffer& text);
     void reply(const TextBuffer& text);
     void take_edges();
     void begin_trigger(std::int64_t time_us);
@@ -169,7 +169,7 @@ void Daemon<World>::take_commands() {
 }
 
 template <class World>
-void Daemon<World>::obey(const Command& command) {
+void Daemon<World>::obey(const SerialCommand& command) {
     TextBuffer text{Span<char>(reply_room_)};
     reply_ok(command, text);
     CommandError error = command.error;
@@ -212,7 +212,7 @@ void Daemon<World>::obey(const Command& command) {
 }
 
 template <class World>
-CommandError Daemon<World>::change_job(const Command& command, TextBuffer& text) {
+CommandError Daemon<World>::change_job(const SerialCommand& command, TextBuffer& text) {
     const int number = world_.jobs().find(command.name, command.number);
     if (number == 0) return CommandError::no_such_job;
     if (!take_job(number)) return CommandError::job_refused;

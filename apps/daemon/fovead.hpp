@@ -72,8 +72,7 @@ public:
 
     /// Empty if all is open, or what is not.
     std::string open(const char* version) {
-        const std::string problem = world_.open();
-        if (!problem.empty()) return problem;
+        if (std::string problem = world_.open(); !problem.empty()) return problem;
         daemon_.take_job(files_.job);
         char room[1024];
         TextBuffer line(room);

@@ -201,13 +201,13 @@ inline Status fill_colour(const hal::FrameInfo& frame, Span<std::uint8_t> scratc
             return convert_plane<Yuyv>(frame, [=](auto src) { return to_rgb(src, range, dst); });
         case PixelFormat::uyvy:
             return convert_plane<Uyvy>(frame, [=](auto src) { return to_rgb(src, range, dst); });
+        case PixelFormat::bgr24:
+            return unpack<Bgr888>(frame, dst, [](Bgr888 p) { return Rgb888{p.red, p.green, p.blue}; });
         case PixelFormat::nv12: {
             const auto chroma = plane_of<ChromaPair>(frame, 1, chroma_size(frame.size));
             if (!chroma) return chroma.status();
             return convert_plane<Gray8>(frame, [=](auto src) { return to_rgb(src, *chroma, range, dst); });
         }
-        case PixelFormat::bgr24:
-            return unpack<Bgr888>(frame, dst, [](Bgr888 p) { return Rgb888{p.red, p.green, p.blue}; });
         case PixelFormat::rgb565:
             return unpack<LowByteFirst>(
                 frame, dst, [](LowByteFirst p) { return rgb_of_rgb565(static_cast<Rgb565>(p.value())); });

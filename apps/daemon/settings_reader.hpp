@@ -205,7 +205,7 @@ inline SettingsProblem read_settings(const std::string& text, Settings& settings
             const std::string otherwise(key.otherwise + 1, std::strlen(key.otherwise) - 2);
             key.load(fresh, {0, span_of(otherwise)});
         }
-    const SettingsProblem problem = detail::SettingsReader(text, fresh).read();
+    SettingsProblem problem = detail::SettingsReader(text, fresh).read();
     if (problem.problem.empty()) settings = fresh;
     return problem;
 }

@@ -15,6 +15,10 @@
 
 #include <daemon/fovead.hpp>
 
+#ifndef FOVEA_VERSION
+#define FOVEA_VERSION "unknown"
+#endif
+
 namespace {
 
 volatile std::sig_atomic_t wants_end = 0;

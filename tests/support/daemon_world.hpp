@@ -90,7 +90,7 @@ public:
         bool pulled = false;
     };
     struct PortOpening {
-        Status operator()(Port& port) const { return port.pulled ? Status::not_found : Status::ok; }
+        Status operator()(Port& opened) const { return opened.pulled ? Status::not_found : Status::ok; }
     };
     using Keeper = apps::CameraKeeper<Camera, WorldClock, CameraOpening>;
     using Link = apps::SerialLink<Port, PortOpening>;

@@ -10,7 +10,7 @@
 namespace fovea::apps {
 namespace {
 
-Command read(const char* line) { return read_command(letters_of(line)); }
+SerialCommand read(const char* line) { return read_command(letters_of(line)); }
 std::string text(Span<const char> letters) { return std::string(letters.begin(), letters.end()); }
 
 TEST(Command, KnowsItsWordsInAnyCase) {
@@ -47,7 +47,7 @@ TEST(Command, TakesJobsByNumberAndName) {
 }
 
 TEST(Command, EchoesAnId) {
-    const Command command = read("#a17 STAT?");
+    const SerialCommand command = read("#a17 STAT?");
     EXPECT_EQ(command.verb, CommandVerb::ask_tally);
     EXPECT_EQ(text(command.id), "a17");
     char room[64];
@@ -98,7 +98,7 @@ TEST(Command, ReadsAnyBytes) {
         for (std::ptrdiff_t k = 0; k < length; ++k)
             line[k] = random.below(20) == 0 ? static_cast<char>(random.below(256))
                                             : letters[random.below(sizeof letters)];
-        const Command command = read_command({line, length});
+        const SerialCommand command = read_command({line, length});
         for (const char c : command.name) EXPECT_TRUE(detail::is_name_letter(c));
         if (command.error == CommandError::none && command.verb == CommandVerb::take_job) {
             EXPECT_FALSE(command.name.empty());

@@ -97,6 +97,11 @@ TEST_F(Probe, SaysWhichModeAWishWouldGetAndWhy) {
               "mjpeg (MJPG) 1280x720 at 30 frames/s: none is as fast as wished: the fastest");
     EXPECT_EQ(chosen({"--size=800x600"}), "none: the camera does not offer this size in such a format");
     EXPECT_EQ(chosen({"--format", "gray8"}), "none: the camera does not offer this format");
+    machine.cameras[0].offered.push_back({V4L2_PIX_FMT_GREY, 640, 480, 33333});
+    EXPECT_EQ(chosen({"--size", "640x480"}),
+              "gray8 (GREY) 640x480 at 30 frames/s: the best of those that are fast enough");
+    EXPECT_EQ(chosen({"--size", "640x480", "--colour"}),
+              "yuyv (YUYV) 640x480 at 30 frames/s: the best of those that are fast enough");
     EXPECT_EQ(chosen({"--colour", "--size", "1280x720", "--rate", "4"}),
               "yuyv (YUYV) 1280x720 at 5 frames/s: the best of those that are fast enough");
 }

@@ -16,7 +16,7 @@ using namespace fovea::apps;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Span<const char> line(reinterpret_cast<const char*>(data), static_cast<std::ptrdiff_t>(size));
-    const Command command = read_command(line);
+    const SerialCommand command = read_command(line);
     const Span<const char> parts[] = {command.id, command.name};
     for (const Span<const char> part : parts)
         if (!part.empty() && (part.begin() < line.begin() || part.end() > line.end())) std::abort();
