@@ -20,6 +20,7 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.R
 parser.add_argument("programs", type=Path)
 parser.add_argument("--figures", type=Path)
 parser.add_argument("--at-once", type=int, default=2, metavar="BOARDS")
+parser.add_argument("--peers", action="store_true", help="ustreamer in the same boot, too: its log is read")
 parser.add_argument("words", nargs="*")
 options = parser.parse_intermixed_args()
 figures = {}
@@ -199,7 +200,6 @@ exec /test/camera_on_board recovery
 """
 
 
-@case
 def recovery_beside_that_of_ustreamer():
     """From its first complaint to its first frame, by its own log; ours from the status to the frame."""
     said = prove(["sh", "-c", BESIDE_A_PEER], program("camera_on_board"), "beside ustreamer: ", cameras=1,
@@ -208,6 +208,7 @@ def recovery_beside_that_of_ustreamer():
         losses, presses = [], []  # in milliseconds
         for part in said.split(f"ok {button}\n")[1:]:
             part = part.split("\nok ")[0]
+            same([word for word in ("ERROR", "PERF") if f"{word} " not in part], [])
             pressed = int(re.search(r"pressed at (\d+) us", part)[1]) / 1000
             lost, back = (1000 * float(re.search(rf"{word} *\[(\d+\.\d+) ", part)[1]) for word in ("ERROR", "PERF"))
             losses.append(round(back - lost))
@@ -216,6 +217,10 @@ def recovery_beside_that_of_ustreamer():
         for start, times in ((f"its complaint of {what}", sorted(losses)), (what, sorted(presses))):
             note({f"ustreamer: from {start} to the next frame, median of {PRESSES}": f"{times[PRESSES // 2]} ms",
                   f"ustreamer: from {start} to the next frame, the most": f"{times[-1]} ms"})
+
+
+if options.peers:
+    case(recovery_beside_that_of_ustreamer)
 
 
 if __name__ == "__main__":
