@@ -71,6 +71,7 @@ struct DaemonOptions {
 ///   link()                        a SerialLink, which may have no port
 ///   lines()                       VerdictLines
 ///   bool next_edge(TriggerEdge&)  edges of the trigger's line that have not been taken
+///   Status trigger_status()       ok as long as these are heard
 ///   void print(Span<const char>)  a line of JSON, without its end
 ///   void keep_failure(ImageView<const Gray8>, const Inspection&)
 ///   bool take_failure_event(FailureRingEvent&)
@@ -95,7 +96,8 @@ public:
 
     const Tally& tally() const { return tally_; }
     bool ready() const {
-        return job_ != 0 && world_.camera().streaming() && world_.camera().trouble() == CameraTrouble::none;
+        return job_ != 0 && world_.trigger_status() == Status::ok && world_.camera().streaming() &&
+               world_.camera().trouble() == CameraTrouble::none;
     }
     bool busy() const { return waiting_; }
     std::uint64_t damaged_pictures() const { return damaged_pictures_; }
@@ -362,11 +364,13 @@ std::int64_t Daemon<World>::turn() {
     take_frame();
     auto& lines = world_.lines();
     lines.set_ready(ready() && !waiting_);
-    lines.set_alarm(job_ == 0 || world_.camera().trouble() != CameraTrouble::none || events_.quality_bad());
+    lines.set_alarm(job_ == 0 || world_.trigger_status() != Status::ok ||
+                    world_.camera().trouble() != CameraTrouble::none || events_.quality_bad());
     std::int64_t next_us = world_.camera().next_try_us();
     const auto sooner = [&](std::int64_t at_us) { next_us = at_us < next_us ? at_us : next_us; };
     if (const std::int64_t pulse_us = lines.turn(now_us); pulse_us >= 0) sooner(pulse_us);
     events_.tell_lines(lines.take_fault());
+    events_.tell_trigger(world_.trigger_status());
     FailureRingEvent failure;
     while (world_.take_failure_event(failure)) events_.tell_failures(failure);
     if (waiting_) sooner(trigger_us_ + options_.timeout_us + 1);

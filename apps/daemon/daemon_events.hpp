@@ -74,6 +74,14 @@ public:
         end();
     }
 
+    /// Of every turn: whether edges of the trigger's line are heard. A line that is lost stays so.
+    void tell_trigger(Status status) {
+        if (status == trigger_) return;
+        trigger_ = status;
+        begin("trigger_lost").text(",\"reason\":").json(letters_of(describe(status)));
+        end();
+    }
+
     void tell_missed(std::uint64_t number, std::int64_t trigger_us) {
         begin("trigger_missed").text(",\"seq\":").number(static_cast<std::int64_t>(number));
         line_.text(",\"trigger_us\":").number(trigger_us);
@@ -103,6 +111,7 @@ private:
     TextBuffer line_{Span<char>(room_)};
     ImageTrouble image_;
     Status lines_ = Status::ok;
+    Status trigger_ = Status::ok;
 };
 
 }  // namespace fovea::apps

@@ -4,6 +4,8 @@
 // anew.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -31,6 +33,7 @@ enum DaemonExit : int {
     daemon_usage = 64,        ///< words that it does not know
     daemon_unavailable = 69,  ///< a device is not there, or another has it
     daemon_no_memory = 71,    ///< before READY; after it none is asked for
+    daemon_io = 74,           ///< a disk hangs while settings are read anew
     daemon_config = 78,       ///< the settings or a job are wrong
 };
 
@@ -131,6 +134,16 @@ inline const char* fovead_help() {
            "settings are wrong.\n";
 }
 
+/// Ends a session. A disk that hangs would be waited for without end: then the program ends here, with that
+/// status; all lines are inactive.
+template <class Session, class Io>
+void end_session(Session& session, Io& io, int status) {
+    session.daemon().stop();
+    if (session.world().finish()) return;
+    io.complain("fovead: the disk of [failures] hangs: ended without it");
+    ::_exit(status);
+}
+
 /// Runs by the files until a signal ends it; reads them anew where one says so.
 template <class Opening, class Io, class System, class TakeSignals>
 int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& files,
@@ -138,7 +151,7 @@ int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& fi
                int signal_file, TakeSignals take_signals, const char* version) {
     const auto begin = [&](const DaemonFiles& by) {
         // Devices have one owner: the old session ends before the new one begins.
-        if (session != nullptr) session->daemon().stop();
+        if (session != nullptr) end_session(*session, io, daemon_io);
         session.reset();
         session = std::make_unique<DaemonSession<Opening>>(by, version, system);
         return session->open(version);
@@ -179,7 +192,7 @@ int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& fi
         session->world().wait(next_us < now_us + 1000000 ? next_us : now_us + 1000000, signal_file);
     }
     static_cast<void>(notify.stopping());
-    session->daemon().stop();
+    end_session(*session, io, daemon_ok);
     return daemon_ok;
 }
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -100,11 +99,14 @@ public:
         : settings_(settings), jobs_(jobs), system_(system) {}
     LinuxWorld(const LinuxWorld&) = delete;
     LinuxWorld& operator=(const LinuxWorld&) = delete;
-    ~LinuxWorld() {
+    ~LinuxWorld() { static_cast<void>(finish()); }
+
+    /// Ends all with the lines inactive. False where a disk hangs that pictures are written to: its thread is
+    /// in the hands of the kernel, and only _exit() does not wait for it.
+    bool finish() {
         lines_.make_safe();
-        // A disk that hangs keeps its thread, which would have to be waited for.
-        if (failures_.stop(300000) == Status::timeout) ::_exit(0);
         camera_.close();
+        return failures_.stop(300000) != Status::timeout;
     }
 
     /// Opens what the settings name and lays out all memory. Empty if all is well, or what is not and what to
@@ -142,18 +144,25 @@ public:
     bool next_edge(TriggerEdge& edge) {
         if (!trigger_.is_open()) return false;
         linux_port::LineEdge got;
-        if (trigger_.next_edge(got) != Status::ok) return false;
+        const Status status = trigger_.next_edge(got);
+        if (status != Status::ok) {
+            if (status != Status::not_found) trigger_status_ = status;
+            return false;
+        }
         edge = {got.time_us, got.lost};
         return true;
     }
+    /// ok as long as edges of the trigger's line are heard.
+    Status trigger_status() const { return trigger_status_; }
     void print(Span<const char> line) {
+        if (output_gone_) return;
         const std::ptrdiff_t size = line.size();
         if (size + 1 > static_cast<std::ptrdiff_t>(print_line_.size())) return;
         for (std::ptrdiff_t k = 0; k < size; ++k)
             print_line_[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(line[k]);
         print_line_[static_cast<std::size_t>(size)] = '\n';
         static_cast<void>(printed_.send({print_line_.data(), size + 1}));
-        static_cast<void>(printed_.pump(output_));
+        pump_output();
     }
     void keep_failure(ImageView<const Gray8> picture, const Inspection& inspection) {
         if (settings_.failures.folder.empty()) return;
@@ -179,6 +188,10 @@ private:
     static Span<std::uint8_t> span(std::vector<std::uint8_t>& memory) {
         return {memory.data(), static_cast<std::ptrdiff_t>(memory.size())};
     }
+    /// Who reads the output may go. To a pipe without a reader a poll would come back at once, for ever.
+    void pump_output() {
+        if (!output_gone_) output_gone_ = printed_.pump(output_) != Status::ok;
+    }
     std::string open_camera();
     std::string open_lines();
     std::string open_serial();
@@ -202,12 +215,14 @@ private:
     Pin not_ok_{system_};
     Pin alarm_{system_};
     linux_port::InputLine<System> trigger_{system_};
+    Status trigger_status_ = Status::ok;
     Lines lines_{{}, {}};
     linux_port::DeviceWatch<System> watch_{system_};
     linux_port::FileStream<System> output_{system_, 1};
     std::vector<std::uint8_t> print_memory_ = std::vector<std::uint8_t>(262144);
     std::vector<std::uint8_t> print_line_ = std::vector<std::uint8_t>(16384 + 1);
     hal::RecordQueue printed_{span(print_memory_)};
+    bool output_gone_ = false;
     std::vector<std::uint8_t> gray_memory_;
     std::vector<std::uint8_t> judge_memory_;
     std::vector<std::uint8_t> sample_memory_;
@@ -354,14 +369,14 @@ void LinuxWorld<TheOpening>::wait(std::int64_t until_us, int signals) {
                        {keeper_.streaming() ? TheOpening::file(camera_) : -1, POLLIN | POLLPRI, 0},
                        {port_.file(), static_cast<short>(POLLIN | (link_.waiting() ? POLLOUT : 0)), 0},
                        {trigger_.file(), POLLIN, 0},
-                       {printed_.waiting() > 0 ? 1 : -1, POLLOUT, 0},
+                       {!output_gone_ && printed_.waiting() > 0 ? 1 : -1, POLLOUT, 0},
                        {watch_.file(), POLLIN, 0}};
     static_cast<void>(system_.poll(files, left_us));
     if (files[5].revents != 0 && watch_.take()) {
         keeper_.hurry();
         link_.hurry();
     }
-    if (printed_.waiting() > 0) static_cast<void>(printed_.pump(output_));
+    pump_output();
 }
 
 }  // namespace fovea::apps

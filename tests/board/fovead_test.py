@@ -234,6 +234,23 @@ def time_may_step_by_a_year():
 
 
 @case
+def who_reads_the_output_may_go():
+    with rig(VIVID + BY_LINE + LINES, cameras=1) as board:
+        board.tell("fovead --config /etc/fovea/fovead.toml < /dev/null | head -n 1 > /dev/null &")
+        same(board.pins.wait_for(READY, 1), True)
+        # Results that nobody takes any more.
+        for _ in range(3):
+            board.pins.drive(TRIGGER, 1)
+            same(board.pins.wait_for(BUSY, 0), True)
+            board.pins.drive(TRIGGER, 0)
+            board.pins.wait_for(READY, 1, seconds=2)
+        used = "set -- $(cat /proc/$(pidof fovead)/stat); echo $((${14} + ${15}))"
+        before = int(board.run(used)[1][0])
+        board.run("sleep 3")
+        at_most(int(board.run(used)[1][0]) - before, 150, "hundredths of a second of the processor in 3 s")
+
+
+@case
 def a_limit_of_memory_is_told():
     with rig(VIVID + BY_COMMAND + LINES, cameras=1) as board:
         start = "fovead --config /test/fovead.toml 2>&1 > /dev/null < /dev/null"

@@ -135,6 +135,7 @@ public:
         edges.pop_front();
         return true;
     }
+    Status trigger_status() const { return trigger; }
     void print(Span<const char> line) { printed.emplace_back(line.begin(), line.end()); }
     void keep_failure(ImageView<const Gray8>, const apps::Inspection& inspection) {
         failures.push_back(inspection.number);
@@ -188,6 +189,7 @@ public:
     Wire wires[6];
     Port port;
     std::deque<apps::TriggerEdge> edges;
+    Status trigger = Status::ok;
     std::vector<std::string> printed;
     std::vector<std::uint64_t> failures;
     std::vector<std::string> samples;

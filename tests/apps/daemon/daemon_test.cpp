@@ -267,6 +267,16 @@ TEST(Daemon, TellsABadPictureApartFromABadPart) {
     EXPECT_FALSE(bench.world.alarm());
 }
 
+TEST(Daemon, IsNotReadyWithoutTheLineOfItsTrigger) {
+    Bench bench(TriggerSource::line);
+    run(bench.world, bench.daemon, 300000);
+    EXPECT_TRUE(bench.world.ready() && !bench.world.alarm());
+    bench.world.trigger = Status::device_lost;
+    run(bench.world, bench.daemon, 300000);
+    EXPECT_TRUE(!bench.world.ready() && bench.world.alarm());
+    EXPECT_EQ(bench.world.events(), Words({"trigger_lost"}));
+}
+
 TEST(Daemon, TellsThatPicturesOfFailuresCannotBeKept) {
     Bench bench(TriggerSource::line);
     run(bench.world, bench.daemon, 300000);
