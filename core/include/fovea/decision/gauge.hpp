@@ -17,6 +17,7 @@
 #include <fovea/decision/recipe_range.hpp>
 #include <fovea/decision/tolerance.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/image/workers.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/segment/connected_components.hpp>
 
@@ -42,8 +43,8 @@ struct PartResult {
     FeatureResult features[Recipe::max_features];
 };
 
-/// Scratch bytes for gauge() with room for so many parts.
-constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts);
+/// Scratch bytes for gauge() with room for so many parts and with so many workers.
+constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts, int workers = 1);
 
 /// Measures every part in an image.
 ///
@@ -60,6 +61,11 @@ constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int part
 /// Source   book sec. 6.2
 inline Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::uint8_t> scratch,
                     ListView<PartResult> parts);
+/// The same by several workers, see OneWorker: rows of the image in pieces, then part by part. The scratch is
+/// more, the result the same.
+template <class Workers>
+Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::uint8_t> scratch,
+             ListView<PartResult> parts, const Workers& workers);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -97,20 +103,22 @@ inline void measure_part(const PartView& view, RecipeView recipe, Span<std::uint
 
 }  // namespace detail
 
-constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts) {
+constexpr std::int64_t gauge_scratch(Size size, const LocateRule& rule, int parts, int workers) {
     return arena_bytes<Region>(parts) + arena_bytes<Hole>(detail::gauge_holes(parts)) +
-           maximum(find_parts_scratch(size, rule), measure_feature_scratch(size));
+           maximum(find_parts_scratch(size, rule, workers), workers * measure_feature_scratch(size));
 }
 
-inline Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::uint8_t> scratch,
-                    ListView<PartResult> parts) {
+template <class Workers>
+Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::uint8_t> scratch,
+             ListView<PartResult> parts, const Workers& workers) {
     if (Status s = detail::check_find_parts(image, recipe.locate); s != Status::ok) return s;
     if (!scale_in_range(recipe.scale) || recipe.features.size() > Recipe::max_features)
         return Status::bad_argument;
     const int capacity = parts.capacity();
     const std::int64_t lists =
         arena_bytes<Region>(capacity) + arena_bytes<Hole>(detail::gauge_holes(capacity));
-    if (scratch.size() < lists + measure_feature_scratch(image.size())) return Status::scratch_too_small;
+    const std::int64_t measuring = measure_feature_scratch(image.size());
+    if (scratch.size() < lists + workers.count() * measuring) return Status::scratch_too_small;
     Arena arena(scratch);
     const Span<Region> region_room = arena.take<Region>(capacity);
     const Span<Hole> hole_room = arena.take<Hole>(detail::gauge_holes(capacity));
@@ -120,24 +128,39 @@ inline Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::u
     const ListView<Hole> holes(hole_room.data(), detail::gauge_holes(capacity), &hole_count);
 
     Threshold threshold;
-    const Status found = find_parts(image, recipe.locate, arena.rest(), threshold, regions, holes);
+    const Status found = find_parts(image, recipe.locate, arena.rest(), threshold, regions, holes, workers);
     if (found != Status::ok && found != Status::capacity_exceeded) return found;
     parts.clear();
-    for (const Region& region : regions) {
+    while (parts.size() < regions.size()) parts.append();
+    workers.run(regions.size(), [&](int index, int worker) {
+        const Region& region = regions[index];
+        PartResult& part = parts[index];
         const Result<PartMoments> moments =
             moments_of(image, recipe.locate, threshold.part, region, holes.span(), recipe.scale);
-        if (!moments) continue;
-        PartResult* part = parts.append();
-        if (part == nullptr) break;  // there is room for every region
-        part->pose = pose_of(*moments, recipe.locate, recipe.scale);
-        part->area = region.moments.area();
-        part->box = region.box;
-        part->holes = region.holes;
+        part.area = 0;
+        if (!moments) return;
+        part.pose = pose_of(*moments, recipe.locate, recipe.scale);
+        part.area = region.moments.area();
+        part.box = region.box;
+        part.holes = region.holes;
         detail::measure_part(
-            {image, part->pose.frame, &region, holes.span(), recipe.locate, threshold, recipe.scale}, recipe,
-            arena.rest(), *part);
+            {image, part.pose.frame, &region, holes.span(), recipe.locate, threshold, recipe.scale}, recipe,
+            arena.rest().from(worker * measuring), part);
+    });
+    // What has no moments is no part. All others have pixels.
+    int kept = 0;
+    for (const PartResult& part : parts) {
+        if (part.area == 0) continue;
+        PartResult& place = parts[kept++];
+        if (&place != &part) place = part;
     }
+    parts.shrink(kept);
     return found;
+}
+
+inline Status gauge(ImageView<const Gray8> image, RecipeView recipe, Span<std::uint8_t> scratch,
+                    ListView<PartResult> parts) {
+    return gauge(image, recipe, scratch, parts, OneWorker());
 }
 
 }  // namespace fovea

@@ -14,6 +14,7 @@
 #include <fovea/decision/recipe.hpp>
 #include <fovea/decision/recipe_range.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/image/workers.hpp>
 #include <fovea/measure/half_turn.hpp>
 #include <fovea/morphology/morphology.hpp>
 #include <fovea/number/fixed.hpp>
@@ -77,8 +78,9 @@ inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const Locate
 ///         class is empty
 inline Result<Threshold> threshold_of(const Histogram& histogram, const LocateRule& rule);
 
-/// Scratch bytes for find_parts(). With fewer, down to about a fifth, it works for images that are calm.
-constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule);
+/// Scratch bytes for find_parts() with so many workers. With fewer, down to about a fifth, it works for
+/// images that are calm.
+constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule, int workers = 1);
 
 /// Finds the regions that a rule takes for parts, and their holes.
 ///
@@ -90,6 +92,10 @@ constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule);
 /// Source    book sec. 6.2.1, with a threshold that follows the light, and an area gate
 inline Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, Span<std::uint8_t> scratch,
                          Threshold& threshold, ListView<Region> parts, ListView<Hole> holes);
+/// The same by several workers, see OneWorker: the scratch is more, the result the same.
+template <class Workers>
+Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, Span<std::uint8_t> scratch,
+                  Threshold& threshold, ListView<Region> parts, ListView<Hole> holes, const Workers& workers);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -206,9 +212,11 @@ inline Result<PartMoments> moments_of(ImageView<const Gray8> image, const Locate
     return with_symmetry(*outline);
 }
 
-constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule) {
-    const std::int64_t opened = rule.opening > 1 ? size.area() + opening_scratch(size) : 0;
-    return arena_bytes<Histogram>(1) + arena_bytes<std::uint8_t>(size.width) + opened +
+constexpr std::int64_t find_parts_scratch(Size size, const LocateRule& rule, int workers) {
+    const bool opened = rule.opening > 1;
+    std::int64_t images = opened ? size.area() + opening_scratch(size) : 0;
+    if (workers > 1) images = opened ? 2 * size.area() + workers * erode_scratch(size) : size.area();
+    return arena_bytes<Histogram>(workers) + arena_bytes<std::uint8_t>(size.width) + images +
            connected_components_scratch(size.width);
 }
 
@@ -221,23 +229,50 @@ inline Status check_find_parts(ImageView<const Gray8> image, const LocateRule& r
     return rule_in_range(rule) ? Status::ok : Status::bad_argument;
 }
 
-/// Thresholds rows and feeds them to the components; through a whole binary image where it is opened first.
-inline Status components_of(ImageView<const Gray8> image, const LocateRule& rule, Gray8 level, Arena& arena,
-                            ListView<Region> parts, ListView<Hole> holes) {
+/// An opening in place, by one worker strip by strip, by several in two steps through an image between them.
+template <class Workers>
+Status open_parts(ImageView<Gray8> binary, Size element, Arena& arena, const Workers& workers) {
+    const Size size = binary.size();
+    if (workers.count() == 1) {
+        const auto between = arena.take<std::uint8_t>(opening_scratch(size));
+        return opening(binary, element, between, binary);
+    }
+    const ImageView<Gray8> eroded(arena.take_unset<std::uint8_t>(size.area()).data(), size, size.width);
+    const auto lines = arena.take_unset<std::uint8_t>(workers.count() * erode_scratch(size));
+    const auto step = [&](auto extreme, ImageView<const Gray8> src, ImageView<Gray8> dst) {
+        run_rows(workers, size.height, [&](RowRange rows, int worker) {
+            const ImageView<Gray8> out(dst.row(rows.first), {size.width, rows.count()}, dst.stride_bytes());
+            kernels::extreme_rows<decltype(extreme)>(src, element, rows.first, rows.end - 1,
+                                                     lines.from(worker * erode_scratch(size)), out);
+        });
+    };
+    step(kernels::Lowest(), binary, eroded);
+    step(kernels::Highest(), eroded, binary);
+    return Status::ok;
+}
+
+/// Thresholds rows and feeds them to the components; through a whole binary image where it is opened first,
+/// or where several work on it.
+template <class Workers>
+Status components_of(ImageView<const Gray8> image, const LocateRule& rule, Gray8 level, Arena& arena,
+                     ListView<Region> parts, ListView<Hole> holes, const Workers& workers) {
     ComponentOptions options;
     options.at_border = rule.at_border ? BorderRegions::keep : BorderRegions::drop;
     options.area_min = rule.area_min;
     options.area_max = rule.area_max;
     options.hole_area_min = rule.hole_area_min;
     const auto classify = rule.dark_part ? kernels::threshold_inverse_row : kernels::threshold_row;
-    if (rule.opening > 1) {
+    if (rule.opening > 1 || workers.count() > 1) {
         const Size size = image.size();
-        const auto pixels = arena.take<std::uint8_t>(static_cast<std::ptrdiff_t>(size.area()));
+        const auto pixels = arena.take_unset<std::uint8_t>(size.area());
         const ImageView<Gray8> binary(pixels.data(), size, size.width);
-        for (int y = 0; y < size.height; ++y) classify(image.row(y), size.width, level, binary.row(y));
-        const auto between = arena.take<std::uint8_t>(static_cast<std::ptrdiff_t>(opening_scratch(size)));
-        if (Status s = opening(binary, {rule.opening, rule.opening}, between, binary); s != Status::ok)
-            return s;
+        run_rows(workers, size.height, [&](RowRange rows, int) {
+            for (int y = rows.first; y < rows.end; ++y)
+                classify(image.row(y), size.width, level, binary.row(y));
+        });
+        if (rule.opening > 1)
+            if (Status s = open_parts(binary, {rule.opening, rule.opening}, arena, workers); s != Status::ok)
+                return s;
         return connected_components(binary, options, arena.rest(), parts, holes);
     }
     const Span<std::uint8_t> row = arena.take<std::uint8_t>(image.width());
@@ -251,18 +286,32 @@ inline Status components_of(ImageView<const Gray8> image, const LocateRule& rule
 
 }  // namespace detail
 
-inline Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, Span<std::uint8_t> scratch,
-                         Threshold& threshold, ListView<Region> parts, ListView<Hole> holes) {
+// Not inlined: gauge() goes on when this has given its stack back.
+template <class Workers>
+[[gnu::noinline]] Status find_parts(ImageView<const Gray8> image, const LocateRule& rule,
+                                    Span<std::uint8_t> scratch, Threshold& threshold, ListView<Region> parts,
+                                    ListView<Hole> holes, const Workers& workers) {
     if (Status s = detail::check_find_parts(image, rule); s != Status::ok) return s;
     const std::int64_t labels = connected_components_scratch(image.width());
-    if (scratch.size() < find_parts_scratch(image.size(), rule) - labels) return Status::scratch_too_small;
+    if (scratch.size() < find_parts_scratch(image.size(), rule, workers.count()) - labels)
+        return Status::scratch_too_small;
     Arena arena(scratch);
-    Histogram& histogram = arena.take<Histogram>(1)[0];
-    for (int y = 0; y < image.height(); ++y) histogram.add_row(image.row(y), image.width());
+    const Span<Histogram> histograms = arena.take<Histogram>(workers.count());
+    run_rows(workers, image.height(), [&](RowRange rows, int worker) {
+        Histogram& histogram = histograms[worker];
+        for (int y = rows.first; y < rows.end; ++y) histogram.add_row(image.row(y), image.width());
+    });
+    Histogram& histogram = histograms[0];
+    for (int k = 1; k < workers.count(); ++k) histogram.merge(histograms[k]);
     const Result<Threshold> chosen = threshold_of(histogram, rule);
     if (!chosen) return chosen.status();
     threshold = *chosen;
-    return detail::components_of(image, rule, chosen->part.level, arena, parts, holes);
+    return detail::components_of(image, rule, chosen->part.level, arena, parts, holes, workers);
+}
+
+inline Status find_parts(ImageView<const Gray8> image, const LocateRule& rule, Span<std::uint8_t> scratch,
+                         Threshold& threshold, ListView<Region> parts, ListView<Hole> holes) {
+    return find_parts(image, rule, scratch, threshold, parts, holes, OneWorker());
 }
 
 }  // namespace fovea
