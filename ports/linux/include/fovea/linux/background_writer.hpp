@@ -5,7 +5,6 @@
 
 #include <pthread.h>
 #include <semaphore.h>
-#include <signal.h>
 
 #include <atomic>
 #include <cerrno>
@@ -17,6 +16,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/linux/fault.hpp>
 #include <fovea/linux/kernel.hpp>
+#include <fovea/linux/thread.hpp>
 
 namespace fovea::linux_port {
 
@@ -71,8 +71,6 @@ template <class Work, class System = Kernel>
 class BackgroundWriter {
 public:
     static constexpr int most_places = 16;
-    /// Of the thread. What it does here takes about 8 KiB; the sanitizers want more.
-    static constexpr std::size_t stack_bytes = 256 * 1024;
 
     explicit BackgroundWriter(Work& work, System system = {}) : work_(work), system_(system) {}
     BackgroundWriter(const BackgroundWriter&) = delete;
@@ -135,7 +133,7 @@ private:
     }
     void work() {
         for (;;) {
-            while (::sem_wait(&something_) != 0) continue;  // interrupted
+            wait_for(something_);
             if (abandoned_.load(std::memory_order_acquire)) break;
             const int place = turns_.full_place();
             // finish() posts once more than there are jobs.
@@ -190,17 +188,7 @@ Status BackgroundWriter<Work, System>::start(int places, std::int64_t first_byte
     turns_.restart(places);
     finishing_ = abandoned_ = done_ = false;
     if (::sem_init(&something_, 0, 0) != 0) return refused(fault, "sem_init", -errno);
-    pthread_attr_t attributes;
-    static_cast<void>(::pthread_attr_init(&attributes));
-    static_cast<void>(::pthread_attr_setstacksize(&attributes, stack_bytes));
-    // The thread has the signal mask of who begins it.
-    sigset_t all;
-    sigset_t before;
-    ::sigfillset(&all);
-    static_cast<void>(::pthread_sigmask(SIG_SETMASK, &all, &before));
-    const int error = ::pthread_create(&thread_, &attributes, &run, this);
-    static_cast<void>(::pthread_sigmask(SIG_SETMASK, &before, nullptr));
-    static_cast<void>(::pthread_attr_destroy(&attributes));
+    const int error = begin_thread(thread_, &run, this);
     if (error != 0) {
         static_cast<void>(::sem_destroy(&something_));
         return refused(fault, "pthread_create", -error);

@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/file.h>
 #include <sys/inotify.h>
 #include <sys/ioctl.h>
@@ -98,6 +99,13 @@ public:
     }
 
     int process_id() { return ::getpid(); }
+    /// How many processors this program may use.
+    int processors() {
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        const int got = ::sched_getaffinity(0, sizeof set, &set);
+        return got < 0 ? answer(got) : CPU_COUNT(&set);
+    }
     /// Time that only goes forward, as the kernel stamps frames and edges.
     std::int64_t monotonic_us() {
         timespec now{};

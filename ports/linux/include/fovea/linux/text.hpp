@@ -44,6 +44,9 @@ public:
     bool fits() const { return fits_; }
     bool empty() const { return size_ == 0; }
     Span<const std::uint8_t> bytes() const { return {reinterpret_cast<const std::uint8_t*>(bytes_), size_}; }
+    friend bool operator==(const Text& a, const Text& b) {
+        return a.size_ == b.size_ && std::memcmp(a.bytes_, b.bytes_, static_cast<std::size_t>(a.size_)) == 0;
+    }
 
 private:
     // Not = "": Clang 14 takes one literal for the arrays of all capacities, and clears as many bytes as the
