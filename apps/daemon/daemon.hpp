@@ -22,14 +22,13 @@
 #include <daemon/camera_keeper.hpp>
 #include <daemon/command.hpp>
 #include <daemon/daemon_events.hpp>
+#include <daemon/daemon_options.hpp>
 #include <daemon/daemon_replies.hpp>
 #include <daemon/failure_ring.hpp>
 #include <daemon/image_quality.hpp>
 #include <daemon/inspection.hpp>
 #include <daemon/jobs.hpp>
 #include <daemon/judge.hpp>
-#include <daemon/result_template.hpp>
-#include <daemon/settings.hpp>
 #include <daemon/tally.hpp>
 #include <daemon/text_buffer.hpp>
 #include <daemon/verdict_lines.hpp>
@@ -41,20 +40,6 @@ struct TriggerEdge {
     std::int64_t time_us = 0;
     /// Edges in front of it that the kernel had no room for.
     std::uint32_t lost = 0;
-};
-
-/// What is done with a result, and how triggers come.
-struct DaemonOptions {
-    TriggerSource source = TriggerSource::free;
-    std::int64_t timeout_us = 1000000;
-    bool every_frame = false;
-    bool json = true;
-    bool silent = false;
-    bool commands = true;
-    bool serial_results = false;
-    bool serial_json = false;
-    ResultTemplate serial_template;
-    const char* version = "";
 };
 
 /// World is what the daemon is connected to:
@@ -76,7 +61,8 @@ struct DaemonOptions {
 ///   void keep_failure(ImageView<const Gray8>, const Inspection&)
 ///   bool take_failure_event(FailureRingEvent&)
 ///   Status keep_sample(Span<const char> name, ImageView<const Gray8>)
-///   Span<std::uint8_t> scratch()  for judge_scratch() of every job
+///   workers()                     who work on a picture, see OneWorker
+///   Span<std::uint8_t> scratch()  for judge_scratch() of every job and so many workers
 ///   const JobList& jobs()
 template <class World>
 class Daemon {
@@ -86,6 +72,18 @@ public:
     /// Takes a job by its number; false if it does not fit the memory.
     bool take_job(int number);
     int job() const { return job_; }
+
+    /// Between two turns: other options, and jobs that the world has changed already; the result before is
+    /// forgotten, for it was by those that are gone. A trigger that waits goes on waiting.
+    void take_options(const DaemonOptions& options) {
+        options_ = options;
+        has_last_ = false;
+    }
+    /// Goes on counting where another ended.
+    void go_on_from(const Tally& tally) {
+        tally_ = tally;
+        numbers_ = tally.triggers;
+    }
 
     /// One turn of the loop. The moment of the next at the latest; earlier when the camera, the serial line
     /// or the trigger's line has something.
@@ -302,7 +300,7 @@ void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
         inspection_.answer = Answer::error;
         inspection_.reason = word_of(quality);
     } else {
-        judge_.judge(picture, world_.jobs()[job_].recipe, world_.scratch(), inspection_);
+        judge_.judge(picture, world_.jobs()[job_].recipe, world_.scratch(), world_.workers(), inspection_);
     }
     inspection_.judged_us = world_.now_us() - begin_us;
     answer(&picture);

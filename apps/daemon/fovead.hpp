@@ -19,6 +19,7 @@
 #include <common/text.hpp>
 #include <daemon/daemon.hpp>
 #include <daemon/daemon_files.hpp>
+#include <daemon/daemon_options.hpp>
 #include <daemon/jobs.hpp>
 #include <daemon/linux_world.hpp>
 #include <daemon/replay_opening.hpp>
@@ -44,25 +45,6 @@ struct DaemonSignals {
     bool tell = false;
 };
 
-inline DaemonOptions daemon_options(const Settings& settings, const char* version) {
-    DaemonOptions options;
-    options.source = settings.trigger.source;
-    options.timeout_us = settings.trigger.timeout_ms * 1000;
-    options.every_frame = settings.camera.every_frame;
-    options.json = settings.results.json;
-    options.silent = settings.serial.silent;
-    options.commands = settings.serial.commands;
-    options.version = version;
-    const std::string results = settings.serial.results.c_str();
-    options.serial_json = results == "json";
-    options.serial_results = !results.empty() && !settings.serial.device.empty();
-    if (!options.serial_results || options.serial_json) return options;
-    const char* const preset = result_preset(span_of(results));
-    // read_settings() has read it before.
-    static_cast<void>(options.serial_template.read(letters_of(preset != nullptr ? preset : results.c_str())));
-    return options;
-}
-
 /// The daemon as it runs by one set of files.
 /// Opening is CameraOpening or ReplayOpening.
 template <class Opening>
@@ -71,32 +53,33 @@ public:
     DaemonSession(const DaemonFiles& files, const char* version, typename Opening::Calls system)
         : files_(files),
           world_(files_.settings, files_.jobs, system),
-          daemon_(world_, daemon_options(files_.settings, version)) {}
+          daemon_(world_, daemon_options(files_.settings, version)),
+          version_(version) {}
 
     /// Empty if all is open, or what is not.
-    std::string open(const char* version) {
+    std::string open() {
         if (std::string problem = world_.open(); !problem.empty()) return problem;
         daemon_.take_job(files_.job);
-        char room[1024];
-        TextBuffer line(room);
-        line.text("{\"v\":1,\"ev\":\"start\",\"t_mono_us\":").number(world_.now_us());
-        line.text(",\"version\":\"").text(version).text("\",\"jobs\":").number(files_.jobs.size());
-        line.text(",\"job\":").json(span_of(files_.jobs[files_.job].name));
-        if (world_.camera().streaming()) {
-            const auto& opening = world_.opening();
-            line.text(",\"camera\":").json({opening.path().c_str(), opening.path().size()});
-            line.text(",\"format\":\"").text(hal::describe(opening.format()));
-            line.text("\",\"width\":")
-                .number(opening.size().width)
-                .text(",\"height\":")
-                .number(opening.size().height);
-            line.text(",\"interval_us\":").number(world_.frame_interval_us());
-            if (opening.control_note()[0] != '\0')
-                line.text(",\"note\":").json(letters_of(opening.control_note()));
-        }
-        line.put('}');
-        if (!line.full()) world_.print(line.letters());
+        tell_start();
         return "";
+    }
+
+    /// Takes files whose settings are of the same devices, between two frames: nothing is opened anew.
+    void take(const DaemonFiles& fresh) {
+        const int job = job_among(fresh);
+        files_ = fresh;
+        world_.take_settings(files_.settings);
+        daemon_.take_options(daemon_options(files_.settings, version_));
+        daemon_.take_job(job);
+    }
+    /// The number of the job that stands in other files for the one that is judged by: the same if it is
+    /// still there, unless these files ask for another one to begin with.
+    int job_among(const DaemonFiles& fresh) const {
+        if (!(fresh.settings.jobs.start == files_.settings.jobs.start)) return fresh.job;
+        // What could not be opened has judged nothing yet.
+        const int here = daemon_.job() != 0 ? daemon_.job() : files_.job;
+        const int same = fresh.jobs.find(span_of(files_.jobs[here].name), 0);
+        return same == 0 ? fresh.job : same;
     }
 
     void tell_reload(const std::string& problem) {
@@ -113,9 +96,32 @@ public:
     Daemon<LinuxWorld<Opening>>& daemon() { return daemon_; }
 
 private:
+    void tell_start() {
+        char room[1024];
+        TextBuffer line(room);
+        line.text("{\"v\":1,\"ev\":\"start\",\"t_mono_us\":").number(world_.now_us());
+        line.text(",\"version\":\"").text(version_).text("\",\"jobs\":").number(files_.jobs.size());
+        line.text(",\"job\":").json(span_of(files_.jobs[files_.job].name));
+        if (world_.camera().streaming()) {
+            const auto& opening = world_.opening();
+            line.text(",\"camera\":").json({opening.path().c_str(), opening.path().size()});
+            line.text(",\"format\":\"").text(hal::describe(opening.format()));
+            line.text("\",\"width\":")
+                .number(opening.size().width)
+                .text(",\"height\":")
+                .number(opening.size().height);
+            line.text(",\"interval_us\":").number(world_.frame_interval_us());
+            if (opening.control_note()[0] != '\0')
+                line.text(",\"note\":").json(letters_of(opening.control_note()));
+        }
+        line.text(",\"threads\":").number(world_.workers().count()).put('}');
+        if (!line.full()) world_.print(line.letters());
+    }
+
     DaemonFiles files_;
     LinuxWorld<Opening> world_;
     Daemon<LinuxWorld<Opening>> daemon_;
+    const char* version_;
 };
 
 inline const char* fovead_help() {
@@ -149,12 +155,18 @@ template <class Opening, class Io, class System, class TakeSignals>
 int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& files,
                const std::string& config, Io& io, System system, linux_port::ServiceNotify<System>& notify,
                int signal_file, TakeSignals take_signals, const char* version) {
-    const auto begin = [&](const DaemonFiles& by) {
-        // Devices have one owner: the old session ends before the new one begins.
-        if (session != nullptr) end_session(*session, io, daemon_io);
+    const auto begin = [&](DaemonFiles by) {
+        Tally tally;
+        if (session != nullptr) {
+            by.job = session->job_among(by);
+            // Devices have one owner: the old session ends before the new one begins.
+            end_session(*session, io, daemon_io);
+            tally = session->daemon().tally();
+        }
         session.reset();
         session = std::make_unique<DaemonSession<Opening>>(by, version, system);
-        return session->open(version);
+        session->daemon().go_on_from(tally);
+        return session->open();
     };
     if (const std::string problem = begin(files); !problem.empty()) {
         io.complain("fovead: " + problem);
@@ -172,7 +184,10 @@ int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& fi
             if (problem.empty() &&
                 fresh.settings.camera.replay.empty() != files.settings.camera.replay.empty())
                 problem = "from a camera to a replay, or back, it has to be started again";
-            if (problem.empty()) {
+            if (problem.empty() && same_devices(fresh.settings, files.settings)) {
+                session->take(fresh);
+                files = fresh;
+            } else if (problem.empty()) {
                 problem = begin(fresh);
                 if (problem.empty()) {
                     files = fresh;

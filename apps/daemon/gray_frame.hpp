@@ -14,6 +14,7 @@
 #include <fovea/hal/pixel_format.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
+#include <fovea/image/workers.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/pixelwise/bayer.hpp>
 #include <fovea/pixelwise/planes.hpp>
@@ -25,8 +26,8 @@ namespace fovea::apps {
 
 // ---- Interface --------------------------------------------------------------------
 
-/// Scratch bytes that gray_frame() needs at most for frames of a format and a size.
-constexpr std::int64_t gray_frame_scratch(hal::PixelFormat format, Size size);
+/// Scratch bytes that gray_frame() needs at most for frames of a format and a size, with so many workers.
+constexpr std::int64_t gray_frame_scratch(hal::PixelFormat format, Size size, int workers = 1);
 /// The same of colour_frame().
 constexpr std::int64_t colour_frame_scratch(hal::PixelFormat format, Size size);
 
@@ -45,6 +46,10 @@ constexpr std::int64_t colour_frame_scratch(hal::PixelFormat format, Size size);
 /// Source    as demosaic() and to_gray(). A mosaic is turned to colour band by band, and that to gray: its
 ///           pixels alone, taken as brightness, would show a pattern on every coloured surface
 inline Result<ImageView<const Gray8>> gray_frame(const hal::FrameInfo& frame, Span<std::uint8_t> scratch);
+/// The same by several workers, see OneWorker, each of whom takes rows; MJPEG is decoded by one.
+template <class Workers>
+Result<ImageView<const Gray8>> gray_frame(const hal::FrameInfo& frame, Span<std::uint8_t> scratch,
+                                          const Workers& workers);
 
 /// The colour of a frame; of the gray formats gray_frame(), without hue. rgb24 stays where it is.
 ///
@@ -102,42 +107,55 @@ Result<ImageView<Pixel>> image_in(Span<std::uint8_t>& scratch, Size size) {
     return view;
 }
 
-/// Every pixel of the first plane, as convert(Packed) makes it.
+/// Those rows of an image.
+template <class Pixel>
+ImageView<Pixel> rows_of(ImageView<Pixel> image, RowRange rows) {
+    return {image.row(rows.first), {image.width(), rows.count()}, image.stride_bytes()};
+}
+
+/// Pixels of the first plane, as convert(Packed) makes them. There are as many rows as dst has, from that one
+/// on.
 template <class Packed, class Pixel, class Convert>
-Status unpack(const hal::FrameInfo& frame, ImageView<Pixel> dst, Convert convert) {
+Status unpack(const hal::FrameInfo& frame, int first, ImageView<Pixel> dst, Convert convert) {
     static_assert(alignof(Packed) == 1, "memory of a driver may begin anywhere");
     const auto src = plane_of<Packed>(frame, 0, frame.size);
     if (!src) return src.status();
     for (int y = 0; y < dst.height(); ++y) {
-        const Packed* const from = src->row(y);
+        const Packed* const from = src->row(first + y);
         Pixel* const to = dst.row(y);
         for (int x = 0; x < dst.width(); ++x) to[x] = convert(from[x]);
     }
     return Status::ok;
 }
 
-/// An operator on the first plane.
+/// An operator on rows of the first plane.
+template <class Packed, class Convert>
+Status convert_rows(const hal::FrameInfo& frame, RowRange rows, Convert convert) {
+    const auto src = plane_of<Packed>(frame, 0, frame.size);
+    return src ? convert(rows_of(*src, rows)) : src.status();
+}
+/// On all of them.
 template <class Packed, class Convert>
 Status convert_plane(const hal::FrameInfo& frame, Convert convert) {
-    const auto src = plane_of<Packed>(frame, 0, frame.size);
-    return src ? convert(*src) : src.status();
+    return convert_rows<Packed>(frame, {0, frame.size.height}, convert);
 }
 
 /// As narrow() does, whatever stands in the bits above.
-inline Status shift_to_gray(const hal::FrameInfo& frame, int shift, ImageView<Gray8> dst) {
-    return unpack<LowByteFirst>(frame, dst, [=](LowByteFirst sample) {
+inline Status shift_to_gray(const hal::FrameInfo& frame, int first, int shift, ImageView<Gray8> dst) {
+    return unpack<LowByteFirst>(frame, first, dst, [=](LowByteFirst sample) {
         const std::uint32_t level = (sample.value() + (1u << shift >> 1)) >> shift;
         return static_cast<Gray8>(minimum<std::uint32_t>(level, 255));
     });
 }
 
-/// A mosaic to gray, a band of rows at a time. Bands begin at even rows, so that all have the same pattern;
-/// the colours of their outermost rows, which lack a neighbour inside the image, are not used.
-inline Status mosaic_to_gray(ImageView<const Gray8> src, BayerPattern pattern, Span<std::uint8_t> scratch,
-                             ImageView<Gray8> dst) {
+/// Rows of a mosaic to gray, a band at a time. Bands begin at even rows, so that all have the same pattern;
+/// the colours of their outermost rows, which lack a neighbour inside the image, are not used. The first row
+/// is an even one.
+inline Status mosaic_to_gray(ImageView<const Gray8> src, BayerPattern pattern, RowRange rows,
+                             Span<std::uint8_t> scratch, ImageView<Gray8> dst) {
     if (scratch.size() < bayer_band_bytes(src.size())) return Status::scratch_too_small;
-    for (int top = 0; top < src.height(); top += bayer_band) {
-        const int bottom = minimum(top + bayer_band, src.height());
+    for (int top = rows.first; top < rows.end; top += bayer_band) {
+        const int bottom = minimum(top + bayer_band, rows.end);
         const int first = maximum(top - 2, 0);
         const int end = minimum(bottom + 1, src.height());
         const Size band_size{src.width(), end - first};
@@ -158,39 +176,49 @@ inline YuvRange range_of(const hal::FrameInfo& frame) {
     return frame.narrow_range ? YuvRange::narrow : YuvRange::full;
 }
 
-inline Status fill_gray(const hal::FrameInfo& frame, Span<std::uint8_t> scratch, ImageView<Gray8> dst) {
+/// Rows of a frame that is not compressed. dst holds those rows alone.
+inline Status gray_rows(const hal::FrameInfo& frame, RowRange rows, ImageView<Gray8> dst) {
     using hal::PixelFormat;
     const YuvRange range = range_of(frame);
     switch (frame.format) {
-        case PixelFormat::none: return Status::unsupported;
         case PixelFormat::gray8:
         case PixelFormat::nv12:
-            return convert_plane<Gray8>(frame, [=](auto src) { return to_gray(src, range, dst); });
-        case PixelFormat::gray10: return shift_to_gray(frame, 2, dst);
-        case PixelFormat::gray12: return shift_to_gray(frame, 4, dst);
-        case PixelFormat::gray16: return shift_to_gray(frame, 8, dst);
+            return convert_rows<Gray8>(frame, rows, [=](auto src) { return to_gray(src, range, dst); });
+        case PixelFormat::gray10: return shift_to_gray(frame, rows.first, 2, dst);
+        case PixelFormat::gray12: return shift_to_gray(frame, rows.first, 4, dst);
+        case PixelFormat::gray16: return shift_to_gray(frame, rows.first, 8, dst);
         case PixelFormat::yuyv:
-            return convert_plane<Yuyv>(frame, [=](auto src) { return to_gray(src, range, dst); });
+            return convert_rows<Yuyv>(frame, rows, [=](auto src) { return to_gray(src, range, dst); });
         case PixelFormat::uyvy:
-            return convert_plane<Uyvy>(frame, [=](auto src) { return to_gray(src, range, dst); });
+            return convert_rows<Uyvy>(frame, rows, [=](auto src) { return to_gray(src, range, dst); });
         case PixelFormat::rgb24:
-            return convert_plane<Rgb888>(frame, [=](auto src) { return to_gray(src, dst); });
+            return convert_rows<Rgb888>(frame, rows, [=](auto src) { return to_gray(src, dst); });
         case PixelFormat::bgr24:
-            return unpack<Bgr888>(frame, dst, [](Bgr888 p) { return gray_of({p.red, p.green, p.blue}); });
+            return unpack<Bgr888>(frame, rows.first, dst, [](Bgr888 p) {
+                return gray_of({p.red, p.green, p.blue});
+            });
         case PixelFormat::rgb565:
-            return unpack<LowByteFirst>(frame, dst, [](LowByteFirst p) {
+            return unpack<LowByteFirst>(frame, rows.first, dst, [](LowByteFirst p) {
                 return gray_of(rgb_of_rgb565(static_cast<Rgb565>(p.value())));
             });
-        case PixelFormat::bayer_rggb:
-        case PixelFormat::bayer_grbg:
-        case PixelFormat::bayer_gbrg:
-        case PixelFormat::bayer_bggr:
-            return convert_plane<Gray8>(frame, [=](auto src) {
-                return mosaic_to_gray(src, bayer_pattern(frame.format), scratch, dst);
-            });
-        case PixelFormat::mjpeg: return decode_jpeg(frame.planes[0].bytes, scratch, dst);
+        default: return Status::unsupported;
     }
-    return Status::unsupported;
+}
+
+template <class Workers>
+Status fill_gray(const hal::FrameInfo& frame, Span<std::uint8_t> scratch, ImageView<Gray8> dst,
+                 const Workers& workers) {
+    if (compressed(frame.format)) return decode_jpeg(frame.planes[0].bytes, scratch, dst);
+    if (!is_bayer(frame.format))
+        return run_rows(workers, frame.size.height,
+                        [&](RowRange rows, int) { return gray_rows(frame, rows, rows_of(dst, rows)); });
+    const Result<ImageView<const Gray8>> src = plane_of<Gray8>(frame, 0, frame.size);
+    if (!src) return src.status();
+    const std::int64_t each = bayer_band_bytes(frame.size);
+    if (scratch.size() < workers.count() * each) return Status::scratch_too_small;
+    return run_rows(workers, frame.size.height, [&](RowRange rows, int worker) {
+        return mosaic_to_gray(*src, bayer_pattern(frame.format), rows, scratch.from(worker * each), dst);
+    });
 }
 
 inline Status fill_colour(const hal::FrameInfo& frame, Span<std::uint8_t> scratch, ImageView<Rgb888> dst) {
@@ -202,7 +230,7 @@ inline Status fill_colour(const hal::FrameInfo& frame, Span<std::uint8_t> scratc
         case PixelFormat::uyvy:
             return convert_plane<Uyvy>(frame, [=](auto src) { return to_rgb(src, range, dst); });
         case PixelFormat::bgr24:
-            return unpack<Bgr888>(frame, dst, [](Bgr888 p) { return Rgb888{p.red, p.green, p.blue}; });
+            return unpack<Bgr888>(frame, 0, dst, [](Bgr888 p) { return Rgb888{p.red, p.green, p.blue}; });
         case PixelFormat::nv12: {
             const auto chroma = plane_of<ChromaPair>(frame, 1, chroma_size(frame.size));
             if (!chroma) return chroma.status();
@@ -210,7 +238,7 @@ inline Status fill_colour(const hal::FrameInfo& frame, Span<std::uint8_t> scratc
         }
         case PixelFormat::rgb565:
             return unpack<LowByteFirst>(
-                frame, dst, [](LowByteFirst p) { return rgb_of_rgb565(static_cast<Rgb565>(p.value())); });
+                frame, 0, dst, [](LowByteFirst p) { return rgb_of_rgb565(static_cast<Rgb565>(p.value())); });
         case PixelFormat::bayer_rggb:
         case PixelFormat::bayer_grbg:
         case PixelFormat::bayer_gbrg:
@@ -226,9 +254,9 @@ inline Status fill_colour(const hal::FrameInfo& frame, Span<std::uint8_t> scratc
 
 }  // namespace detail
 
-constexpr std::int64_t gray_frame_scratch(hal::PixelFormat format, Size size) {
+constexpr std::int64_t gray_frame_scratch(hal::PixelFormat format, Size size, int workers) {
     if (format == hal::PixelFormat::none || size.empty()) return 0;
-    const std::int64_t behind = detail::is_bayer(format) ? detail::bayer_band_bytes(size)
+    const std::int64_t behind = detail::is_bayer(format) ? workers * detail::bayer_band_bytes(size)
                                 : compressed(format)     ? jpeg_scratch(size)
                                                          : 0;
     return size.area() + behind;
@@ -242,13 +270,19 @@ constexpr std::int64_t colour_frame_scratch(hal::PixelFormat format, Size size) 
     return 3 * size.area() + behind;
 }
 
-inline Result<ImageView<const Gray8>> gray_frame(const hal::FrameInfo& frame, Span<std::uint8_t> scratch) {
+template <class Workers>
+Result<ImageView<const Gray8>> gray_frame(const hal::FrameInfo& frame, Span<std::uint8_t> scratch,
+                                          const Workers& workers) {
     const bool luma_plane = frame.format == hal::PixelFormat::gray8 || frame.format == hal::PixelFormat::nv12;
     if (luma_plane && !frame.narrow_range) return detail::plane_of<Gray8>(frame, 0, frame.size);
     const Result<ImageView<Gray8>> dst = detail::image_in<Gray8>(scratch, frame.size);
     if (!dst) return dst.status();
-    if (const Status s = detail::fill_gray(frame, scratch, *dst); s != Status::ok) return s;
+    if (const Status s = detail::fill_gray(frame, scratch, *dst, workers); s != Status::ok) return s;
     return ImageView<const Gray8>(*dst);
+}
+
+inline Result<ImageView<const Gray8>> gray_frame(const hal::FrameInfo& frame, Span<std::uint8_t> scratch) {
+    return gray_frame(frame, scratch, OneWorker());
 }
 
 inline Result<ImageView<const Rgb888>> colour_frame(const hal::FrameInfo& frame, Span<std::uint8_t> scratch) {

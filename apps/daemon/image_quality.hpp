@@ -7,9 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <fovea/base/arena.hpp>
+#include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
+#include <fovea/image/workers.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/statistics/histogram.hpp>
 
@@ -87,6 +90,14 @@ struct ImageQuality {
 /// Source  our own; the sum of squared differences is the measure of focus of Brenner et al., J. Histochem.
 ///         Cytochem. 24, 1976, here in relation to the edges it stands on
 inline Result<ImageQuality> image_quality(ImageView<const Gray8> src, const ImageQualityLimits& limits);
+/// The same by several workers, see OneWorker.
+///
+/// Scratch  image_quality_scratch(), any alignment
+/// Errors   also scratch_too_small
+template <class Workers>
+Result<ImageQuality> image_quality(ImageView<const Gray8> src, const ImageQualityLimits& limits,
+                                   Span<std::uint8_t> scratch, const Workers& workers);
+constexpr std::int64_t image_quality_scratch(int workers);
 
 /// Judges a picture by itself: the same picture is judged alike whatever came before it, without hysteresis.
 constexpr ImageVerdict judge(const ImageQuality& quality, const ImageQualityLimits& limits);
@@ -153,6 +164,14 @@ struct EdgeSums {
         ++(edge ? edges : flats);
         if (edge) wholes += static_cast<std::uint32_t>(size * size);
     }
+    void merge(const EdgeSums& other) {
+        steps += other.steps;
+        wholes += other.wholes;
+        edges += other.edges;
+        flat_steps += other.flat_steps;
+        flats += other.flats;
+        looked = looked || other.looked;
+    }
     int sharpness() const {
         if (!looked) return 1000;
         if (wholes == 0) return 0;
@@ -177,14 +196,30 @@ constexpr int in_thousandths(std::int64_t part, std::int64_t whole) {
 
 }  // namespace detail
 
-inline Result<ImageQuality> image_quality(ImageView<const Gray8> src, const ImageQualityLimits& limits) {
+constexpr std::int64_t image_quality_scratch(int workers) {
+    return arena_bytes<Histogram>(workers) + arena_bytes<detail::EdgeSums>(workers);
+}
+
+template <class Workers>
+Result<ImageQuality> image_quality(ImageView<const Gray8> src, const ImageQualityLimits& limits,
+                                   Span<std::uint8_t> scratch, const Workers& workers) {
     if (src.empty()) return Status::empty_image;
     if (limits.dark_below < 0 || limits.dark_below > 256 || limits.saturated_from < 0 ||
         limits.saturated_from > 256)
         return Status::bad_argument;
+    if (scratch.size() < image_quality_scratch(workers.count())) return Status::scratch_too_small;
+    Arena arena(scratch);
+    const Span<Histogram> histograms = arena.take<Histogram>(workers.count());
+    const Span<detail::EdgeSums> sums = arena.take<detail::EdgeSums>(workers.count());
     const int step = detail::sample_step(src.size());
-    Histogram histogram;
-    for (int y = 0; y < src.height(); y += step) histogram.add_row(src.row(y), src.width());
+    // Of the rows that are looked at.
+    const int rows = (src.height() + step - 1) / step;
+    run_rows(workers, rows, [&](RowRange piece, int worker) {
+        for (int k = piece.first; k < piece.end; ++k)
+            histograms[worker].add_row(src.row(k * step), src.width());
+    });
+    Histogram& histogram = histograms[0];
+    for (int k = 1; k < workers.count(); ++k) histogram.merge(histograms[k]);
 
     const std::uint32_t* const counts = histogram.counts();
     std::int64_t all = 0, sum = 0, dark = 0, saturated = 0;
@@ -204,16 +239,27 @@ inline Result<ImageQuality> image_quality(ImageView<const Gray8> src, const Imag
     if (!low || !high) return Status::bad_argument;
     quality.contrast = *high - *low;
 
+    run_rows(workers, rows, [&](RowRange piece, int worker) {
+        detail::EdgeSums edges = sums[worker];
+        edges.contrast = quality.contrast;
+        for (int y = piece.first * step; y < minimum(piece.end * step, src.height()); y += step)
+            for (int x = 0; x < src.width(); x += step) {
+                const Gray8* const place = src.row(y) + x;
+                if (x + detail::edge_reach < src.width()) edges.add(place, 1);
+                if (y + detail::edge_reach < src.height()) edges.add(place, src.stride_bytes());
+            }
+        sums[worker] = edges;
+    });
     detail::EdgeSums edges;
     edges.contrast = quality.contrast;
-    for (int y = 0; y < src.height(); y += step)
-        for (int x = 0; x < src.width(); x += step) {
-            const Gray8* const place = src.row(y) + x;
-            if (x + detail::edge_reach < src.width()) edges.add(place, 1);
-            if (y + detail::edge_reach < src.height()) edges.add(place, src.stride_bytes());
-        }
+    for (const detail::EdgeSums& of_worker : sums) edges.merge(of_worker);
     quality.sharpness = edges.sharpness();
     return quality;
+}
+
+inline Result<ImageQuality> image_quality(ImageView<const Gray8> src, const ImageQualityLimits& limits) {
+    std::uint8_t scratch[image_quality_scratch(1)];
+    return image_quality(src, limits, scratch, OneWorker());
 }
 
 constexpr ImageVerdict judge(const ImageQuality& quality, const ImageQualityLimits& limits) {

@@ -20,20 +20,21 @@ namespace fovea::apps {
 /// Room for the results of a picture.
 inline constexpr int judge_parts = 64;
 
-/// Bytes of scratch that judging pictures of that size by a recipe needs.
-constexpr std::int64_t judge_scratch(Size size, RecipeView recipe) {
-    return gauge_scratch(size, recipe.locate, judge_parts);
+/// Bytes of scratch that judging pictures of that size by a recipe needs, with so many workers.
+constexpr std::int64_t judge_scratch(Size size, RecipeView recipe, int workers = 1) {
+    return gauge_scratch(size, recipe.locate, judge_parts, workers);
 }
 
 class Judge {
 public:
     /// Judges a picture; the answer, the reason and the values of the worst part go into the inspection.
+    template <class Workers>
     void judge(ImageView<const Gray8> picture, RecipeView recipe, Span<std::uint8_t> scratch,
-               Inspection& inspection) {
+               const Workers& workers, Inspection& inspection) {
         parts_.clear();
         inspection.answer = Answer::error;
         inspection.feature = {};
-        const Status status = gauge(picture, recipe, scratch, parts_.view());
+        const Status status = gauge(picture, recipe, scratch, parts_.view(), workers);
         inspection.parts = parts_.size();
         if (status != Status::ok) {
             inspection.reason = status == Status::capacity_exceeded ? "too_many_parts" : "no_judgement";

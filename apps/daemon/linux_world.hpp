@@ -29,6 +29,7 @@
 #include <fovea/linux/replace_file.hpp>
 #include <fovea/linux/serial_port.hpp>
 #include <fovea/linux/v4l2_camera.hpp>
+#include <fovea/linux/worker_pool.hpp>
 
 #include <daemon/camera_keeper.hpp>
 #include <daemon/camera_opening.hpp>
@@ -40,38 +41,11 @@
 #include <daemon/jobs.hpp>
 #include <daemon/judge.hpp>
 #include <daemon/serial_link.hpp>
+#include <daemon/serial_opening.hpp>
 #include <daemon/settings.hpp>
 #include <daemon/verdict_lines.hpp>
 
 namespace fovea::apps {
-
-/// Opens the serial port that the settings name, wherever it is plugged in today.
-template <class System>
-class SerialOpening {
-public:
-    SerialOpening(const Settings::Serial& settings, System system) : settings_(settings), finder_(system) {}
-
-    Status operator()(linux_port::SerialPort<System>& port) {
-        linux_port::DevicePath path;
-        if (const Status s = finder_.resolve("tty", settings_.device.c_str(), path); s != Status::ok) {
-            fault_ = finder_.fault();
-            return s;
-        }
-        linux_port::SerialOptions options;
-        options.baud = static_cast<std::uint32_t>(settings_.baud);
-        options.rs485 = settings_.rs485 ? linux_port::Rs485::on : linux_port::Rs485::as_found;
-        const Status got = port.open(path.c_str(), options);
-        fault_ = port.fault();
-        return got;
-    }
-
-    const linux_port::Fault& fault() const { return fault_; }
-
-private:
-    Settings::Serial settings_;
-    linux_port::DeviceFinder<System> finder_;
-    linux_port::Fault fault_;
-};
 
 /// TheOpening is CameraOpening or ReplayOpening.
 template <class TheOpening = CameraOpening<>>
@@ -95,6 +69,7 @@ public:
     using Link = SerialLink<Port, OpenPort>;
     using Lines = VerdictLines<Pin>;
 
+    /// The jobs stay where they are, and may be others after take_settings().
     LinuxWorld(const Settings& settings, const JobList& jobs, System system)
         : settings_(settings), jobs_(jobs), system_(system) {}
     LinuxWorld(const LinuxWorld&) = delete;
@@ -131,12 +106,12 @@ public:
     }
     std::uint64_t missed_frames() const { return camera_.counters().missed; }
     Status gray(const hal::FrameInfo& info, ImageView<const Gray8>& picture) {
-        const Result<ImageView<const Gray8>> got = gray_frame(info, span(gray_memory_));
+        const Result<ImageView<const Gray8>> got = gray_frame(info, span(gray_memory_), workers());
         if (got) picture = *got;
         return got.status();
     }
     ImageVerdict quality(ImageView<const Gray8> picture) {
-        const Result<ImageQuality> measured = image_quality(picture, limits_);
+        const Result<ImageQuality> measured = image_quality(picture, limits_, scratch(), workers());
         return measured ? judge(*measured, limits_) : ImageVerdict::fine;
     }
     Link& link() { return link_; }
@@ -174,9 +149,18 @@ public:
     bool take_failure_event(FailureRingEvent& event) { return failures_.take_event(event); }
     Status keep_sample(Span<const char> name, ImageView<const Gray8> picture);
     Span<std::uint8_t> scratch() { return span(judge_memory_); }
+    linux_port::WorkerPool::Workers workers() { return pool_.workers(); }
     const JobList& jobs() const { return jobs_; }
 
     // ---- What the program does ----
+
+    /// Takes settings of the same devices, and lays out the memory for the jobs anew. Not while a frame is
+    /// judged.
+    void take_settings(const Settings& settings) {
+        settings_ = settings;
+        lines_.set_timing(line_timing());
+        lay_out();
+    }
 
     /// Waits until something has come from the camera, the serial port, the trigger's line or the file given,
     /// or that moment is there.
@@ -195,7 +179,17 @@ private:
     std::string open_camera();
     std::string open_lines();
     std::string open_serial();
-    std::string lay_out();
+    std::string begin_workers();
+    std::string begin_failures();
+    void lay_out();
+    Size frame_size() const {
+        // Of a camera that was there once, even if it is gone now: it comes back in this size or not at all.
+        if (!opening_.size().empty()) return opening_.size();
+        return {static_cast<int>(settings_.camera.width), static_cast<int>(settings_.camera.height)};
+    }
+    LineTiming line_timing() const {
+        return {settings_.lines.mode, settings_.lines.pulse_ms * 1000, settings_.lines.error_is_not_ok};
+    }
 
     Settings settings_;
     const JobList& jobs_;
@@ -223,6 +217,7 @@ private:
     std::vector<std::uint8_t> print_line_ = std::vector<std::uint8_t>(16384 + 1);
     hal::RecordQueue printed_{span(print_memory_)};
     bool output_gone_ = false;
+    linux_port::WorkerPool pool_;
     std::vector<std::uint8_t> gray_memory_;
     std::vector<std::uint8_t> judge_memory_;
     std::vector<std::uint8_t> sample_memory_;
@@ -241,8 +236,10 @@ std::string LinuxWorld<TheOpening>::open() {
     std::string problem = open_lines();
     if (problem.empty()) problem = open_camera();
     if (problem.empty()) problem = open_serial();
-    if (problem.empty()) problem = lay_out();
-    return problem;
+    if (problem.empty()) problem = begin_workers();
+    if (!problem.empty()) return problem;
+    lay_out();
+    return begin_failures();
 }
 
 template <class TheOpening>
@@ -299,7 +296,7 @@ std::string LinuxWorld<TheOpening>::open_lines() {
     }
     const auto wired = [](Pin& pin) { return pin.is_open() ? &pin : nullptr; };
     lines_ = Lines({wired(ready_), wired(busy_), wired(valid_), wired(ok_), wired(not_ok_), wired(alarm_)},
-                   {names.mode, names.pulse_ms * 1000, names.error_is_not_ok});
+                   line_timing());
     return "";
 }
 
@@ -315,26 +312,40 @@ std::string LinuxWorld<TheOpening>::open_serial() {
 }
 
 template <class TheOpening>
-std::string LinuxWorld<TheOpening>::lay_out() {
-    const Size size = keeper_.streaming() ? opening_.size()
-                                          : Size{static_cast<int>(settings_.camera.width),
-                                                 static_cast<int>(settings_.camera.height)};
+std::string LinuxWorld<TheOpening>::begin_workers() {
+    constexpr int most_by_default = 4;
+    auto threads = static_cast<int>(settings_.processor.threads);
+    // A kernel that does not tell has one.
+    if (threads == 0) threads = std::clamp(system_.processors(), 1, most_by_default);
+    linux_port::Fault fault;
+    const Status started = pool_.start(threads, fault);
+    if (started == Status::ok) return "";
+    return std::string("[processor] threads: ") + fault.call + ": " + linux_port::reason(fault) +
+           "; with threads = 1 none is begun";
+}
+
+template <class TheOpening>
+void LinuxWorld<TheOpening>::lay_out() {
+    const Size size = frame_size();
+    const int count = workers().count();
     std::int64_t gray = 0;
-    // A camera that is not there yet may send any format.
-    for (int k = 1; k < hal::pixel_formats; ++k) {
-        const auto format = static_cast<hal::PixelFormat>(k);
-        if (keeper_.streaming() && format != opening_.format()) continue;
-        gray = std::max(gray, gray_frame_scratch(format, size));
-    }
-    std::int64_t judge = 0;
+    // A camera that is not there yet, or that another takes the place of, may send any format.
+    for (int k = 1; k < hal::pixel_formats; ++k)
+        gray = std::max(gray, gray_frame_scratch(static_cast<hal::PixelFormat>(k), size, count));
+    std::int64_t judge = image_quality_scratch(count);
     for (int number = 1; number <= jobs_.size(); ++number)
-        judge = std::max(judge, judge_scratch(size, jobs_[number].recipe));
+        judge = std::max(judge, judge_scratch(size, jobs_[number].recipe, count));
     gray_memory_.resize(static_cast<std::size_t>(gray));
     judge_memory_.resize(static_cast<std::size_t>(judge));
     sample_memory_.resize(static_cast<std::size_t>(size.area() + 64));
     limits_ = quality_limits(settings_.quality);
+}
+
+template <class TheOpening>
+std::string LinuxWorld<TheOpening>::begin_failures() {
     if (settings_.failures.folder.empty()) return "";
     constexpr int places = 4;
+    const Size size = frame_size();
     failure_memory_.resize(static_cast<std::size_t>(FailureRing<System>::memory_bytes(places, size)));
     const linux_port::RingLimits ring{settings_.failures.megabytes * 1000000,
                                       static_cast<int>(settings_.failures.pictures)};

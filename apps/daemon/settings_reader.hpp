@@ -167,7 +167,7 @@ private:
                 break;
             }
         }
-        key.load(settings_, found);
+        key.place.load(settings_, found);
     }
     bool check_template(const std::string& text) {
         if (text.empty() || text == "json" || result_preset(span_of(text)) != nullptr) return true;
@@ -203,7 +203,7 @@ inline SettingsProblem read_settings(const std::string& text, Settings& settings
     for (const SettingKey& key : setting_keys())
         if (key.type == SettingType::text && std::strlen(key.otherwise) > 2) {
             const std::string otherwise(key.otherwise + 1, std::strlen(key.otherwise) - 2);
-            key.load(fresh, {0, span_of(otherwise)});
+            key.place.load(fresh, {0, span_of(otherwise)});
         }
     SettingsProblem problem = detail::SettingsReader(text, fresh).read();
     if (problem.problem.empty()) settings = fresh;
@@ -243,6 +243,7 @@ inline std::string settings_manual() {
         text += std::string(".TP\n.B ") + key.name + "\n" + key.text;
         if (!values.empty()) text += "; " + values;
         if (key.otherwise[0] != '\0') text += std::string("; ") + key.otherwise + " if left out";
+        if (key.change == SettingChange::reopens) text += "; opens the devices anew";
         text += ".\n";
     }
     return text;

@@ -63,6 +63,9 @@ public:
         set(pins_.alarm, alarm_, false);
     }
 
+    /// From the next answer on.
+    void set_timing(const LineTiming& timing) { timing_ = timing; }
+
     /// Whether a trigger would be answered now.
     void set_ready(bool ready) { set(pins_.ready, ready_, ready && !busy()); }
     void set_alarm(bool alarm) { set(pins_.alarm, alarm_, alarm); }

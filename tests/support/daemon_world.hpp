@@ -150,6 +150,7 @@ public:
         samples.emplace_back(name.begin(), name.end());
         return Status::ok;
     }
+    OneWorker workers() { return {}; }
     Span<std::uint8_t> scratch() {
         return {scratch_room.data(), static_cast<std::ptrdiff_t>(scratch_room.size())};
     }

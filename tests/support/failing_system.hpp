@@ -130,6 +130,7 @@ public:
                            unsigned to_bytes) {
         return fails("send_to") ? -script_->error : inner_.send_to(file, bytes, to, to_bytes);
     }
+    int processors() { return fails("processors") ? -script_->error : inner_.processors(); }
     /// These two never fail, and are not counted.
     int process_id() { return inner_.process_id(); }
     std::int64_t monotonic_us() { return inner_.monotonic_us(); }

@@ -249,6 +249,7 @@ public:
     // What a camera does not need.
     std::ptrdiff_t read(int, Span<std::uint8_t>) { return -EINVAL; }
     std::ptrdiff_t write(int, Span<const std::uint8_t>) { return -EINVAL; }
+    int processors() { return 1; }
     int sync(int) { return -EINVAL; }
     int rename(const char*, const char*) { return -EINVAL; }
     int make_folder(const char*, unsigned) { return -EINVAL; }

@@ -8,6 +8,7 @@
 #include <fovea/base/random.hpp>
 
 #include <daemon/gray_frame.hpp>
+#include <support/scattered_workers.hpp>
 
 namespace fovea::apps {
 namespace {
@@ -140,6 +141,36 @@ TEST(GrayFrame, EqualsTheReferenceForEveryFormatSizeStrideAndAddress) {
                     ++compared;
                 }
     EXPECT_GT(compared, 700);
+}
+
+TEST(GrayFrame, BySeveralWorkersIsTheSame) {
+    Random random(85);
+    for (const PixelFormat format : with_rows)
+        for (const Size size : {Size{1, 1}, Size{5, 33}, Size{18, 100}, Size{64, 47}})
+            for (const int count : {2, 5}) {
+                RandomFrame frame(format, size, 3, random.between(0, 3), random);
+                frame.info.narrow_range = format == PixelFormat::yuyv || format == PixelFormat::gray8;
+                const test::ScatteredWorkers workers(count, 7);
+                Bytes one(static_cast<std::size_t>(gray_frame_scratch(format, size)));
+                Bytes many(static_cast<std::size_t>(gray_frame_scratch(format, size, count)));
+                const auto wanted = gray_frame(frame.info, span(one));
+                const auto made = gray_frame(frame.info, span(many), workers);
+                ASSERT_EQ(made.status(), wanted.status()) << describe(format);
+                if (!made) continue;
+                for (int y = 0; y < size.height; ++y)
+                    for (int x = 0; x < size.width; ++x)
+                        ASSERT_EQ((*made)(x, y), (*wanted)(x, y))
+                            << describe(format) << " " << size.width << "x" << size.height << " at " << x
+                            << ", " << y;
+                // What is short is refused whoever would come to the missing row.
+                const Span<const std::uint8_t> bytes = frame.info.planes[0].bytes;
+                frame.info.planes[0].bytes =
+                    bytes.first(bytes.size() - hal::row_bytes(format, 0, size.width));
+                EXPECT_EQ(gray_frame(frame.info, span(many), workers).status(), Status::truncated);
+                if (many.empty()) continue;
+                many.pop_back();
+                EXPECT_FALSE(gray_frame(frame.info, span(many), workers).ok());
+            }
 }
 
 TEST(GrayFrame, LeavesLumaOfTheFullRangeWhereItIs) {

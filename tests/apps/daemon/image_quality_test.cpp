@@ -14,6 +14,7 @@
 #include "support/guarded_image.hpp"
 #include "support/plate_scene.hpp"
 #include "support/render.hpp"
+#include "support/scattered_workers.hpp"
 
 namespace fovea::apps {
 namespace {
@@ -191,6 +192,30 @@ TEST(ImageQuality, OfAnySizeStaysInItsImage) {
     ImageQualityLimits limits;
     limits.dark_below = 257;
     EXPECT_EQ(image_quality(image.view(), limits).status(), Status::bad_argument);
+}
+
+TEST(ImageQuality, BySeveralWorkersIsTheSame) {
+    Random random(91);
+    for (const Size size : {Size{1, 1}, Size{9, 40}, Size{100, 75}, Size{400, 333}})
+        for (const int count : {2, 3, 16}) {
+            test::GuardedImage<Gray8> image(size);
+            for (int y = 0; y < size.height; ++y)
+                for (int x = 0; x < size.width; ++x)
+                    image(x, y) = static_cast<Gray8>((x / 7 + y / 9) % 2 * 120 + random.between(0, 90));
+            std::vector<std::uint8_t> room(static_cast<std::size_t>(image_quality_scratch(count)));
+            const Span<std::uint8_t> scratch(room.data(), static_cast<std::ptrdiff_t>(room.size()));
+            const test::ScatteredWorkers workers(count, 3);
+            const Result<ImageQuality> made = image_quality(image.view(), {}, scratch, workers);
+            const ImageQuality wanted = measured(image.view());
+            ASSERT_TRUE(made.ok());
+            EXPECT_EQ(made->dark, wanted.dark);
+            EXPECT_EQ(made->saturated, wanted.saturated);
+            EXPECT_EQ(made->mean, wanted.mean);
+            EXPECT_EQ(made->contrast, wanted.contrast);
+            EXPECT_EQ(made->sharpness, wanted.sharpness);
+            EXPECT_EQ(image_quality(image.view(), {}, scratch.first(scratch.size() - 1), workers).status(),
+                      Status::scratch_too_small);
+        }
 }
 
 TEST(ImageTrouble, IsOneEventWhileALampFlickers) {

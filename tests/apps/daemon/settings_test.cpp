@@ -85,6 +85,47 @@ TEST(Settings, StayAsTheyWereAfterAProblem) {
     EXPECT_EQ(settings.camera.width, 77);
 }
 
+TEST(Settings, TellWhichOfThemOpenTheDevicesAnew) {
+    const std::string base = "format = 1\n";
+    const auto opens_anew = [&](const std::string& text) {
+        Settings before;
+        Settings after;
+        EXPECT_EQ(read_settings(base, before).problem, "");
+        EXPECT_EQ(read_settings(base + text, after).problem, "") << text;
+        EXPECT_TRUE(same_devices(after, after));
+        return !same_devices(before, after);
+    };
+    // Each key in turn, with a value that is not its default.
+    int changed = 0;
+    for (const SettingKey& key : setting_keys()) {
+        if (key.table[0] == '\0') continue;
+        std::string value = "\"x\"";
+        if (key.type == SettingType::integer) value = std::to_string(key.low + 3);
+        if (key.type == SettingType::boolean) value = std::string(key.otherwise) == "true" ? "false" : "true";
+        if (key.type == SettingType::choice)
+            for (const std::string& choice : split(key.choices, '|'))
+                if ("\"" + choice + "\"" != key.otherwise) value = "\"" + choice + "\"";
+        std::string table = "[" + std::string(key.table) + "]\n";
+        std::string rest;
+        if (key.table[0] == '[') {
+            table = std::string(key.table) + "\n";
+            rest = std::string(key.name) == "name" ? "value = 1\n" : "name = \"gain\"\n";
+        }
+        const std::string text = table + key.name + " = " + value + "\n" + rest;
+        EXPECT_EQ(opens_anew(text), key.change == SettingChange::reopens) << text;
+        ++changed;
+    }
+    EXPECT_GT(changed, 40);
+    EXPECT_TRUE(opens_anew("[lines]\nok = \"7\"\n"));
+    EXPECT_FALSE(opens_anew("[lines]\nmode = \"pulse\"\n[quality]\nleast_contrast = 0\n"));
+    const std::string gain = "[[control]]\nname = \"gain\"\nvalue = ";
+    Settings one;
+    Settings other;
+    EXPECT_EQ(read_settings(base + gain + "1\n", one).problem, "");
+    EXPECT_EQ(read_settings(base + gain + "2\n", other).problem, "");
+    EXPECT_FALSE(same_devices(one, other));
+}
+
 TEST(Settings, HaveASampleThatIsTheDefaults) {
     const std::string sample = sample_settings();
     EXPECT_EQ(problem_of(sample), "");
