@@ -64,6 +64,12 @@ public:
         next_try_us_ = clock_.microseconds();
     }
 
+    /// Opens the camera if that is due, and takes no frame of it. True if it streams.
+    bool open() {
+        Frame none;
+        return streaming_ || try_to_open(none);
+    }
+
     /// A frame if there is one; timeout where none has come yet. Anything else: the camera is in trouble, or
     /// lost.
     Status fetch(FramePolicy policy, std::int64_t moment_us, Frame& frame) {
@@ -113,6 +119,8 @@ public:
     }
 
     CameraTrouble trouble() const { return trouble_; }
+    /// What its trouble began with.
+    Status trouble_status() const { return trouble_status_; }
     /// True while frames are expected of it.
     bool streaming() const { return streaming_; }
     /// When fetch() has something to try: not before that, unless the camera has a frame.

@@ -93,7 +93,10 @@ public:
     std::int64_t now_us() { return system_.monotonic_us(); }
     Keeper& camera() { return keeper_; }
     const char* camera_fault() {
-        return opening_.problem()[0] != '\0' ? opening_.problem() : linux_port::reason(camera_.fault());
+        if (opening_.problem()[0] != '\0') return opening_.problem();
+        // Silence is no answer of the kernel.
+        return camera_.fault().status == Status::ok ? describe(keeper_.trouble_status())
+                                                    : linux_port::reason(camera_.fault());
     }
     const char* camera_advice() {
         return opening_.problem()[0] != '\0' ? opening_.advice() : linux_port::advice(camera_.fault());
@@ -244,9 +247,7 @@ std::string LinuxWorld<TheOpening>::open() {
 
 template <class TheOpening>
 std::string LinuxWorld<TheOpening>::open_camera() {
-    typename Camera::Frame frame;
-    static_cast<void>(keeper_.fetch(FramePolicy::every, 0, frame));
-    if (keeper_.streaming()) return "";
+    if (keeper_.open()) return "";
     const Status fault = camera_.fault().status;
     const bool absent = keeper_.trouble() == CameraTrouble::lost;
     const bool sized = settings_.camera.width > 0 && settings_.camera.height > 0;
