@@ -26,8 +26,7 @@ public:
 
     std::ptrdiff_t write(int file, Span<const std::uint8_t> bytes) {
         if (file != 1) return TimedKernel::write(file, bytes);
-        printed_->append(reinterpret_cast<const char*>(bytes.data()),
-                         static_cast<std::size_t>(bytes.size()));
+        printed_->append(reinterpret_cast<const char*>(bytes.data()), static_cast<std::size_t>(bytes.size()));
         return bytes.size();
     }
     int poll(Span<pollfd> files, std::int64_t patience_us) {
