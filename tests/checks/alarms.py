@@ -493,6 +493,22 @@ def sanitizers(folder):
 
 
 @alarm
+def threads(folder):
+    """The pool of workers, once with what a worker reads written behind the post that wakes it."""
+    pool = "ports/linux/include/fovea/linux/worker_pool.hpp"
+    told = (PROJECT / pool).read_text()
+    late = write(folder, {"late/fovea/linux/worker_pool.hpp": told}) / "late/fovea/linux/worker_pool.hpp"
+    replace(late, "        pieces_ = pieces;\n", "")
+    replace(late, "        take_pieces(0);\n", "        pieces_ = pieces;\n        take_pieces(0);\n")
+    for what, first, words in (("as it is", "", None), ("a late write", f"-I{folder}/late", "data race")):
+        program = folder / what.replace(" ", "_")
+        command = (f"g++ -std=c++17 -O1 -g -fsanitize=thread {first} -I{PROJECT}/core/include -I{PROJECT}/hal/include "
+                   f"-I{PROJECT}/ports/linux/include {PROJECT}/tests/ports/linux/worker_pool_test.cpp -lgtest -lgtest_main "
+                   f"-pthread -o {program} && TSAN_OPTIONS=halt_on_error=1 {program}")
+        yield what, ["sh", "-c", command], words
+
+
+@alarm
 def fuzz(folder):
     text = """#include <cstddef>
               #include <cstdint>
