@@ -74,7 +74,10 @@ public:
     Taken pass_over(System& system, Fault& fault) {
         bool later = false;
         const Taken found = find(system, later, fault);
-        if (found == Taken::frame) std::memcpy(last_, next_, sizeof last_);
+        if (found != Taken::frame) return found;
+        std::memcpy(last_, next_, sizeof last_);
+        // It may be good.
+        whole_ = true;
         return found;
     }
 
@@ -181,7 +184,7 @@ private:
     Span<std::uint8_t> memory_;
     bool folder_ = false;
     bool watched_ = false;
-    /// There was one that could be used, since the first.
+    /// There was one that could be used, since the first, or was passed over unread.
     bool whole_ = false;
     ReplayEnd end_ = ReplayEnd::stop;
     Name last_ = {};
