@@ -12,8 +12,8 @@
 
 namespace fovea::test {
 
-/// rig.source() has begun to stream, and if its first frame is there at once, that was taken; rig.interval_us()
-/// is from frame to frame; rig.pass(us) lets time pass.
+/// rig.source() has begun to stream, and if its first frame is there at once, that was taken;
+/// rig.interval_us() is from frame to frame; rig.pass(us) lets time pass.
 template <class Rig>
 void expect_frames_in_their_order(Rig& rig) {
     auto& source = rig.source();
