@@ -184,10 +184,10 @@ bool same_controls(const Settings& a, const Settings& b) {
         if (!(a.controls[k].*Member == b.controls[k].*Member)) return false;
     return true;
 }
-inline constexpr SettingKey::Place control_name = {
+inline constexpr SettingKey::Place name_of_control = {
     [](Settings& s, const SettingValue& v) { load_text(s.controls[s.controls.size() - 1].name, v); },
     same_controls<&ControlChoice::name>};
-inline constexpr SettingKey::Place control_value = {
+inline constexpr SettingKey::Place value_of_control = {
     [](Settings& s, const SettingValue& v) { s.controls[s.controls.size() - 1].value = v.number; },
     same_controls<&ControlChoice::value>};
 inline constexpr SettingKey::Place nowhere = {[](Settings&, const SettingValue&) {},
@@ -233,10 +233,10 @@ inline Span<const SettingKey> setting_keys() {
          live, number_at<&S::camera, &S::Camera::every_frame>},
 
         {"[[control]]", "name", text, "",
-         "a control of the camera, as v4l2-ctl lists it: \"exposure_time_absolute\"", anew, control_name, 1,
+         "a control of the camera, as v4l2-ctl lists it: \"exposure_time_absolute\"", anew, name_of_control, 1,
          63},
         {"[[control]]", "value", integer, "", "what it is set to; automatic modes are set first", anew,
-         control_value, -99999999, 99999999},
+         value_of_control, -99999999, 99999999},
 
         {"trigger", "source", choice, "\"free\"",
          "what starts a judgement: nothing but the camera, an edge on a line, or the command TRG", anew,

@@ -15,6 +15,7 @@
 #include <fovea/decision/part_frame.hpp>
 #include <fovea/decision/recipe.hpp>
 #include <fovea/decision/tolerance.hpp>
+#include <fovea/image/workers.hpp>
 #include <golden/digest.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/plate_recipe.hpp>
@@ -186,6 +187,42 @@ inline void decision_gauge(Workspace& work, Digest& digest) {
     made.recipe.locate.area_min = 1;
     for_each_picture(work, [&](ImageView<const Gray8> src, ImageView<Gray8>) { run(src); });
     digest.add(gauge_scratch({112, 76}, made.recipe.locate, 3) > 0);
+}
+
+/// Three workers in turn, who begin with the last piece.
+struct WorkersInTurn {
+    static constexpr int count() { return 3; }
+    template <class Piece>
+    void run(int pieces, const Piece& piece) const {
+        for (int index = pieces - 1; index >= 0; --index) piece(index, index % 3);
+    }
+};
+
+/// The plate by several workers, opened and not, and the pieces that rows are cut in.
+inline void decision_gauge_by_workers(Workspace& work, Digest& digest) {
+    PlateRecipe made =
+        plate_recipe(part_picture(work, 0), Plate{}, work.scratch_span(), work.regions, work.holes);
+    List<PartResult, 3> parts;
+    for (const int opening : {1, 3}) {
+        made.recipe.locate.opening = opening;
+        digest.add(gauge(part_picture(work, 0), made.recipe, work.scratch_span(), parts, WorkersInTurn()),
+                   parts.view());
+    }
+    for (const int workers : {1, 2, 3, 16})
+        for (const int rows : {1, 16, 17, 100, 1080}) {
+            const int pieces = piece_count(rows, workers);
+            digest.add(pieces);
+            for (int index = 0; index < pieces; ++index) {
+                const RowRange piece = piece_rows(rows, pieces, index);
+                digest.add(piece.first, piece.end);
+            }
+        }
+    std::int64_t sum = 0;
+    digest.add(run_rows(OneWorker(), 40, [&](RowRange rows, int worker) {
+        sum += rows.count() + worker;
+        return Status::ok;
+    }));
+    digest.add(sum);
 }
 
 /// The recipe of the plate as bytes and back, whole and with every byte changed.
