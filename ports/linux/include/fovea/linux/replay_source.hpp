@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 #include <fovea/base/assert.hpp>
 #include <fovea/base/span.hpp>
@@ -19,6 +18,7 @@
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/hal/frame_source.hpp>
+#include <fovea/hal/lent_frame.hpp>
 #include <fovea/hal/pixel_format.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/linux/fault.hpp>
@@ -71,33 +71,8 @@ constexpr std::int64_t replay_picture_bytes(hal::PixelFormat lent, Size size) {
 template <class System = Kernel>
 class ReplaySource {
 public:
-    /// The one frame, lent. Gives itself back when it dies or is filled anew.
-    class Frame {
-    public:
-        Frame() = default;
-        Frame(Frame&& other) noexcept { *this = std::move(other); }
-        Frame& operator=(Frame&& other) noexcept {
-            if (this == &other) return *this;
-            give_back();
-            source_ = std::exchange(other.source_, nullptr);
-            info_ = std::exchange(other.info_, {});
-            return *this;
-        }
-        ~Frame() { give_back(); }
-
-        const hal::FrameInfo& info() const { return info_; }
-        bool empty() const { return source_ == nullptr; }
-        void give_back() {
-            if (source_ != nullptr) source_->lent_ = false;
-            source_ = nullptr;
-            info_ = {};
-        }
-
-    private:
-        friend ReplaySource;
-        ReplaySource* source_ = nullptr;
-        hal::FrameInfo info_;
-    };
+    /// There is one at a time.
+    using Frame = hal::LentFrame<ReplaySource>;
 
     explicit ReplaySource(System system = {}) : system_(system) {}
     ReplaySource(const ReplaySource&) = delete;
@@ -139,6 +114,9 @@ public:
     const Fault& fault() const { return fault_; }
 
 private:
+    friend Frame;
+    void take_back(int) { lent_ = false; }
+
     /// How often a folder is looked at while nothing comes.
     static constexpr std::int64_t look_us = 300000;
 
@@ -310,8 +288,7 @@ template <class System>
 void ReplaySource<System>::lend(const hal::FrameInfo& info, Frame& frame) {
     ++counters_.lent;
     lent_ = true;
-    frame.source_ = this;
-    frame.info_ = info;
+    frame.lend(*this, 0, info);
 }
 
 /// The first frame that is wanted.

@@ -18,6 +18,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/hal/frame_source.hpp>
 #include <fovea/hal/frame_time.hpp>
+#include <fovea/hal/lent_frame.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/linux/camera_mode.hpp>
 #include <fovea/linux/fault.hpp>
@@ -42,35 +43,8 @@ namespace fovea::linux_port {
 template <class System = Kernel>
 class V4l2Camera {
 public:
-    /// A frame of the driver's, lent. Gives itself back when it dies or is filled anew.
-    class Frame {
-    public:
-        Frame() = default;
-        Frame(Frame&& other) noexcept { *this = std::move(other); }
-        Frame& operator=(Frame&& other) noexcept {
-            if (this == &other) return *this;
-            give_back();
-            camera_ = std::exchange(other.camera_, nullptr);
-            index_ = other.index_;
-            info_ = std::exchange(other.info_, {});
-            return *this;
-        }
-        ~Frame() { give_back(); }
-
-        const hal::FrameInfo& info() const { return info_; }
-        bool empty() const { return camera_ == nullptr; }
-        void give_back() {
-            if (camera_ != nullptr) camera_->buffers_.give_back(index_);
-            camera_ = nullptr;
-            info_ = {};
-        }
-
-    private:
-        friend V4l2Camera;
-        V4l2Camera* camera_ = nullptr;
-        int index_ = -1;
-        hal::FrameInfo info_;
-    };
+    /// A frame of the driver's.
+    using Frame = hal::LentFrame<V4l2Camera>;
 
     explicit V4l2Camera(System system = {}) : system_(system) {}
     V4l2Camera(const V4l2Camera&) = delete;
@@ -121,6 +95,9 @@ public:
     const Fault& fault() const { return fault_; }
 
 private:
+    friend Frame;
+    void take_back(int index) { buffers_.give_back(index); }
+
     template <class Argument>
     int call(unsigned long request, Argument& argument) {
         return uninterrupted([&] { return system_.ioctl(file_, request, &argument); });
@@ -289,20 +266,18 @@ Status V4l2Camera<System>::take(Frame& frame, bool& usable) {
     FilledBuffer filled;
     if (const Status s = buffers_.take(system_, filled, fault_); s != Status::ok) return s;
     const std::int64_t now = system_.monotonic_us();
-    Frame taken;
-    taken.camera_ = this;
-    taken.index_ = filled.index;
     counters_.missed += gaps_.before(filled.sequence);
-    if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0 ||
-        layout_.place(filled.planes, taken.info_) != Status::ok) {
+    hal::FrameInfo info;
+    if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0 || layout_.place(filled.planes, info) != Status::ok) {
         ++counters_.damaged;
+        take_back(filled.index);
         return Status::ok;
     }
     const bool monotonic = (filled.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     stamped_at_end_ = (filled.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_EOF;
-    taken.info_.sequence = filled.sequence;
-    taken.info_.time_us = monotonic ? stamps_.taken(filled.stamp_us, now) : now;
-    frame = std::move(taken);
+    info.sequence = filled.sequence;
+    info.time_us = monotonic ? stamps_.taken(filled.stamp_us, now) : now;
+    frame.lend(*this, filled.index, info);
     usable = true;
     return Status::ok;
 }

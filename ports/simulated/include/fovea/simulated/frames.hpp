@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <fovea/hal/frame_source.hpp>
+#include <fovea/hal/lent_frame.hpp>
 #include <fovea/hal/pixel_format.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
@@ -23,32 +24,7 @@ namespace fovea::simulated {
 /// lost. The frames of the numbers in `damaged` are kept back.
 class Frames {
 public:
-    class Frame {
-    public:
-        Frame() = default;
-        Frame(Frame&& other) noexcept { *this = std::move(other); }
-        Frame& operator=(Frame&& other) noexcept {
-            if (this == &other) return *this;
-            give_back();
-            source_ = std::exchange(other.source_, nullptr);
-            info_ = std::exchange(other.info_, {});
-            return *this;
-        }
-        ~Frame() { give_back(); }
-
-        const hal::FrameInfo& info() const { return info_; }
-        bool empty() const { return source_ == nullptr; }
-        void give_back() {
-            if (source_ != nullptr) --source_->lent_;
-            source_ = nullptr;
-            info_ = {};
-        }
-
-    private:
-        friend Frames;
-        Frames* source_ = nullptr;
-        hal::FrameInfo info_;
-    };
+    using Frame = hal::LentFrame<Frames>;
 
     Frames(std::vector<ImageView<const Gray8>> pictures, Clock& clock, std::int32_t interval_us = 40000)
         : pictures_(std::move(pictures)), clock_(clock), interval_us_(interval_us), begun_us_(clock.now) {}
@@ -78,6 +54,9 @@ public:
     bool gone = false;
 
 private:
+    friend Frame;
+    void take_back(int) { --lent_; }
+
     std::int64_t taken_us(std::uint32_t number) const {
         return begun_us_ + (std::int64_t{number} + 1) * interval_us_;
     }
@@ -113,13 +92,14 @@ private:
     }
     Status lend(std::uint32_t number, Frame& frame) {
         const ImageView<const Gray8> picture = pictures_[number % pictures_.size()];
-        frame.info_.format = hal::PixelFormat::gray8;
-        frame.info_.size = picture.size();
         const std::ptrdiff_t bytes = picture.stride_bytes() * (picture.height() - 1) + picture.width();
-        frame.info_.planes[0] = {{picture.first(), bytes}, picture.stride_bytes()};
-        frame.info_.sequence = number;
-        frame.info_.time_us = taken_us(number);
-        frame.source_ = this;
+        hal::FrameInfo info;
+        info.format = hal::PixelFormat::gray8;
+        info.size = picture.size();
+        info.planes[0] = {{picture.first(), bytes}, picture.stride_bytes()};
+        info.sequence = number;
+        info.time_us = taken_us(number);
+        frame.lend(*this, 0, info);
         ++lent_;
         return Status::ok;
     }
