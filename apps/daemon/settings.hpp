@@ -233,8 +233,8 @@ inline Span<const SettingKey> setting_keys() {
          live, number_at<&S::camera, &S::Camera::every_frame>},
 
         {"[[control]]", "name", text, "",
-         "a control of the camera, as v4l2-ctl lists it: \"exposure_time_absolute\"", anew, name_of_control, 1,
-         63},
+         "a control of the camera, as v4l2-ctl lists it: \"exposure_time_absolute\"", anew, name_of_control,
+         1, 63},
         {"[[control]]", "value", integer, "", "what it is set to; automatic modes are set first", anew,
          value_of_control, -99999999, 99999999},
 
