@@ -16,8 +16,8 @@ namespace fovea::apps {
 
 class StatusLine {
 public:
-    /// The line if it has become another one, nullptr if not; once a second at most. World and Daemon are those
-    /// of daemon.hpp.
+    /// The line if it has become another one, nullptr if not; once a second at most. World and Daemon are
+    /// those of daemon.hpp.
     ///
     ///     cap: 120 OK, 3 NG, 0 ERROR, 1 missed
     ///     cap: 120 OK, 3 NG, 9 ERROR, 1 missed; camera_lost: No such device

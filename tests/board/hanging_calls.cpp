@@ -3,13 +3,13 @@
 // A call into the kernel that never comes back: linked to the daemon's own object file with
 // -Wl,--wrap=ioctl,--wrap=write, which leads its calls through here.
 //
-// FOVEA_HANG="KIND N MARK" makes the N-th call of a kind hang, in the first life alone: then it leaves the file
+// FOVEA_HANG="KIND N MARK" makes the N-th call of a kind hang, in the first life alone, which leaves the file
 // MARK. Kinds are frame (a frame is asked for), line (a line is set) and serial (something is written that is
 // not the output). What hangs is told on standard error, with the time in microseconds that frames and edges
 // have too.
+#include <fcntl.h>
 #include <linux/gpio.h>
 #include <linux/videodev2.h>
-#include <fcntl.h>
 #include <time.h>
 #include <unistd.h>
 

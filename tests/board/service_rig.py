@@ -3,7 +3,8 @@ from pathlib import Path
 
 from board_shell import BoardShell
 
-HOME = "/home/person"
+HOME = "/srv/person"
+# As tests/run fetches them before.
 PACKAGES = ["dpkg", "libc-bin", "procps", "sudo", "v4l-utils"]
 # What Debian's own packages and its installer would have made: the data of dpkg, a person in the group of
 # cameras, and sudo that asks for no password.
