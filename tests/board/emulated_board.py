@@ -79,6 +79,8 @@ class EmulatedBoard:
     modules     of the kernel, each with its options behind a blank
     cameras     how many of vivid; loop: fed by outputs; vivid: further options
     cpus, memory_mb
+    steady      its time counts the instructions of its one processor, 250 to the microsecond: what shares the host
+                with it makes it no slower by its own clock
     serial      far ends of /dev/ttyS0..: "socket" is connected in board.serial[0], "pty" has its path there,
                 "unix:PATH" listens
     usb_serial  the same of /dev/ttyUSB0.., with unplug_usb_serial(0) and plug_usb_serial(0)
@@ -91,12 +93,12 @@ class EmulatedBoard:
     """
 
     def __init__(self, command, *, files=None, fetch=None, packages=(), systemd=False, modules=(), cameras=0,
-                 loop=False, vivid="", cpus=1, memory_mb=512, serial=(), usb_serial=(), ports=None, disks=(), stdin=None,
-                 resume=None, seconds=60):
+                 loop=False, vivid="", cpus=1, steady=False, memory_mb=512, serial=(), usb_serial=(), ports=None, disks=(),
+                 stdin=None, resume=None, seconds=60):
         self.command, self.systemd = list(command), systemd
         self.layers = package_layers(packages, systemd)
         self.files, self.fetch = files or {}, fetch or {}
-        self.cpus, self.memory_mb, self.seconds, self.stdin = cpus, memory_mb, seconds, stdin
+        self.cpus, self.steady, self.memory_mb, self.seconds, self.stdin = cpus, steady, memory_mb, seconds, stdin
         self.serial_ends, self.usb_serial_ends = list(serial), list(usb_serial)
         self.ports, self.disks, self.resume = ports or {}, list(disks), resume
         needed = ["virtio_pci", "virtio_console"]

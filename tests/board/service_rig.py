@@ -1,4 +1,5 @@
 """The package of fovead on an emulated board with systemd and udev, and a person who may use sudo."""
+import re
 from pathlib import Path
 
 from board_shell import BoardShell
@@ -30,7 +31,7 @@ class ServiceRig(BoardShell):
 
     def __init__(self, package, texts, **options):
         """package: the .deb, which is at the person's home; texts: {path on the board: what stands there}."""
-        super().__init__(["sh", "-c", PREPARE], systemd=True, packages=PACKAGES, **{"seconds": 120, **options})
+        super().__init__(["sh", "-c", PREPARE], systemd=True, steady=True, packages=PACKAGES, seconds=240, **options)
         files = self.options.setdefault("files", {})
         files[f"{HOME}/{package.name}"] = package
         for number, (path, text) in enumerate(texts.items()):
@@ -51,6 +52,11 @@ class ServiceRig(BoardShell):
 
     def journal(self):
         return "\n".join(self.run("sudo journalctl -u fovead -o short-monotonic --no-pager | cut -c 1-160 | tail -n 30")[1])
+
+    def told_us(self, words):
+        """When systemd last said something of the service, as the daemon tells its times."""
+        line = self.must(f"sudo journalctl -u fovead -o short-monotonic --no-pager | grep -F ']: {words}'")[-1]
+        return round(float(re.match(r"\[ *([\d.]+)\]", line)[1]) * 1000000)
 
     def install(self):
         return self.text(f"sudo dpkg -i {self.package} 2>&1")

@@ -10,7 +10,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 from cases import case, holds, run_cases, same
@@ -86,12 +85,10 @@ def has_rights_of_its_own(board):
 def stops_within_a_second(board):
     """All lines are inactive, and systemd is content."""
     board.must("sudo systemctl stop fovead")
-    told = board.must("sudo journalctl -u fovead -o short-monotonic --no-pager | grep ']: Stopping '")[-1]
-    begin = float(re.match(r"\[ *([\d.]+)\]", told)[1])
     shown = board.shown("Result", "ExecMainStatus", "NRestarts", "ExecMainExitTimestampMonotonic")
-    seconds = int(shown.pop("ExecMainExitTimestampMonotonic")) / 1000000 - begin
-    figures["systemctl stop: until the daemon has ended"] = f"{round(seconds * 1000)} ms"
-    at_most(seconds, 1, "seconds of stopping")
+    us = int(shown.pop("ExecMainExitTimestampMonotonic")) - board.told_us("Stopping ")
+    figures["systemctl stop: until the daemon has ended"] = f"{us // 1000} ms"
+    at_most(us, 1000000, "microseconds of stopping")
     same(set(board.pins.outputs().values()), {0})
     same(shown, {"Result": "success", "ExecMainStatus": "0", "NRestarts": "0"})
 
@@ -207,12 +204,14 @@ def comes_back(board, limit, what, hung_us):
     """Nothing is shown as judged, systemd starts it again within the limit with all lines inactive, and it judges."""
     board.event("start")
     started_us = int(board.shown("ExecMainStartTimestampMonotonic")["ExecMainStartTimestampMonotonic"])
+    safe_us = board.told_us("fovead.service: Failed with result")  # the end of what the service does then
     at_most((started_us - hung_us) / 1000000, limit, f"seconds until it was started again, {what}")
     seen = board.pins.changes()
     same([change for change in seen if change in ((OK, 1), (NG, 1), (VALID, 1))], [])
     same((READY, 1) in seen or board.pins.wait_for(READY, 1), True)
     same({board.pins.outputs()[line] for line in (OK, NG, VALID, BUSY)}, {0})
     result = good_part(board)
+    figures[f"F28: {what}: until its lines were safe"] = f"{(safe_us - hung_us) // 1000} ms"
     figures[f"F28: {what}: until it was started again"] = f"{(started_us - hung_us) // 1000} ms"
     figures[f"F28: {what}: until its first verdict"] = f"{(result['t_mono_us'] - hung_us) // 1000} ms"
 
@@ -254,10 +253,9 @@ def a_daemon_that_hangs_is_started_again_with_its_lines_safe():
         outputs = board.pins.outputs()
         same([outputs[line] for line in (READY, BUSY, VALID, OK, NG)], [0, 1, 0, 0, 0])
         # The lines are safe before another life begins.
-        what, begin_s = f"setting a line hangs, WatchdogSec={SHORT_S}", time.monotonic()
+        what = f"setting a line hangs, WatchdogSec={SHORT_S}"
         board.pins.changes()
         same(board.pins.changes_until(BUSY, 0), [(BUSY, 0)])
-        figures[f"F28: {what}: until its lines are safe"] = f"{round((time.monotonic() - begin_s) * 1000)} ms"
         comes_back(board, SHORT_S + 2, what, hung["t_mono_us"])
 
         # The serial port, while a person ends the service: the second record hangs.
@@ -320,25 +318,24 @@ def probe_tells_what_there_is_and_udev_names_a_camera():
     with rig(cameras=1, serial=["socket"], modules=["vhci-hcd", "uvcvideo"]) as board:
         board.install()
 
-        def probed(kind):
+        def probed():
             devices = [json.loads(line) for line in board.must("sudo fovea probe --json | sed 's/^/ /'")]
-            return [device for device in devices if device["device"] == kind]
-        camera, = probed("camera")
+            return [[device for device in devices if device["device"] == kind] for kind in ("camera", "gpio", "serial")]
+        (camera,), (chip,), ports = probed()
         same((camera["node"], camera["pictures"], camera["identity"]), ("/dev/video0", True, "path:vivid.0"))
         holds(board.text("v4l2-ctl -d /dev/video0 --info"), camera["card"])
         modes_are_those_of_v4l2_ctl(board, camera)
         controls_are_those_of_v4l2_ctl(board, camera)
         holds(board.text("fovea probe --size 640x360 --format gray8"), "chosen: gray8 (GREY) 640x360 at ")
-        chip, = probed("gpio")
         same((chip["label"], len(chip["lines"])), ("9030000.pl061", 8))
-        same([port["node"] for port in probed("serial")].count("/dev/ttyS0"), 1)
+        same([port["node"] for port in ports].count("/dev/ttyS0"), 1)
 
         # A camera is plugged in; then it is gone, and its name too.
-        board.tell("sudo /board/usb_camera > usb 2>&1 & camera=$!")
+        board.tell("sudo /board/usb_camera > usb 2>&1 &")
         board.must("until [ -e /dev/fovea/cam-0001 ]; do sleep 0.1; done")
         same(board.must("readlink -f /dev/fovea/cam-0001"), ["/dev/video1"])
         same(board.must("ls -l /dev/video1")[0].split()[:4], ["crw-rw----", "1", "root", "video"])
-        same([(camera["node"], camera["identity"], camera["pictures"]) for camera in probed("camera")][1:], [
+        same([(camera["node"], camera["identity"], camera["pictures"]) for camera in probed()[0]][1:], [
             ("/dev/video1", "usb:1209:0001:0001", True), ("/dev/video2", "/dev/video2", False)])
         keeps_its_exposure(board)
         board.must("sudo pkill usb_camera; until [ ! -e /dev/fovea/cam-0001 ]; do sleep 0.1; done")
