@@ -200,13 +200,17 @@ def good_part(board):
     return result
 
 
-def comes_back(board, limit, what, hung_us):
-    """Nothing is shown as judged, systemd starts it again within the limit with all lines inactive, and it judges."""
+def comes_back(board, active, limit, what, hung_us):
+    """The line that is active becomes inactive as all others and nothing is shown as judged; systemd starts the daemon
+    again within the limit, and it judges."""
+    seen = board.pins.changes_until(active, 0, seconds=60)
+    if seen is None:
+        raise AssertionError(f"{what}: nobody has ended it, and its lines stay as they are")
     board.event("start")
     started_us = int(board.shown("ExecMainStartTimestampMonotonic")["ExecMainStartTimestampMonotonic"])
     safe_us = board.told_us("fovead.service: Failed with result")  # the end of what the service does then
     at_most((started_us - hung_us) / 1000000, limit, f"seconds until it was started again, {what}")
-    seen = board.pins.changes()
+    seen += board.pins.changes()
     same([change for change in seen if change in ((OK, 1), (NG, 1), (VALID, 1))], [])
     same((READY, 1) in seen or board.pins.wait_for(READY, 1), True)
     same({board.pins.outputs()[line] for line in (OK, NG, VALID, BUSY)}, {0})
@@ -217,13 +221,14 @@ def comes_back(board, limit, what, hung_us):
 
 
 def hangs(board, kind, number):
-    """Another life of the daemon, in which a call never comes back; and how the lines stand then."""
+    """Another life of the daemon, in which a call will never come back."""
     drop_in = ("[Service]\\nExecStart=\\nExecStart=/board/hanging_fovead --config /etc/fovea/fovead.toml\\n"
                f"WatchdogSec={SHORT_S}\\nEnvironment=\"FOVEA_HANG={kind} {number} /var/lib/fovead/{kind}\"\\n")
     board.must("sudo mkdir -p /etc/systemd/system/fovead.service.d")
     board.must(f"printf '{drop_in}' | sudo tee /etc/systemd/system/fovead.service.d/hang.conf")
     board.must("sudo systemctl daemon-reload; sudo systemctl restart fovead")
     same(board.shown("WatchdogUSec"), {"WatchdogUSec": f"{SHORT_S}s"})
+    same(board.pins.wait_for(READY, 1), True)
 
 
 @case
@@ -235,32 +240,27 @@ def a_daemon_that_hangs_is_started_again_with_its_lines_safe():
         # The daemon as it is shipped: all of it stands still.
         board.pins.changes()
         stopped = float(board.must("sudo kill -STOP $(pidof fovead); cut -d ' ' -f 1 /proc/uptime")[0])
-        comes_back(board, 10 + 2, "stopped as a whole by SIGSTOP, WatchdogSec=10", int(stopped * 1000000))
+        comes_back(board, READY, 10 + 2, "stopped as a whole by SIGSTOP, WatchdogSec=10", int(stopped * 1000000))
         same(board.shown("NRestarts"), {"NRestarts": "1"})
 
         # One stage of it, the rest as it is: a frame is asked for and none comes, nor an error.
         hangs(board, "frame", 30)
         hung = board.event("hangs")
-        comes_back(board, SHORT_S + 2, f"a call for a frame hangs, WatchdogSec={SHORT_S}", hung["t_mono_us"])
+        comes_back(board, READY, SHORT_S + 2, f"a call for a frame hangs, WatchdogSec={SHORT_S}", hung["t_mono_us"])
 
         # The line of a verdict: six are made inactive, then ready; a whole trigger has 6 changes, and with the
         # next ready, valid and ok end, and busy begins. So the 18th would have been OK.
         hangs(board, "line", 18)
-        same(board.pins.wait_for(READY, 1), True)
         good_part(board)
         pulse(board)
         hung = board.event("hangs")
         outputs = board.pins.outputs()
         same([outputs[line] for line in (READY, BUSY, VALID, OK, NG)], [0, 1, 0, 0, 0])
-        # The lines are safe before another life begins.
-        what = f"setting a line hangs, WatchdogSec={SHORT_S}"
         board.pins.changes()
-        same(board.pins.changes_until(BUSY, 0), [(BUSY, 0)])
-        comes_back(board, SHORT_S + 2, what, hung["t_mono_us"])
+        comes_back(board, BUSY, SHORT_S + 2, f"setting a line hangs, WatchdogSec={SHORT_S}", hung["t_mono_us"])
 
         # The serial port, while a person ends the service: the second record hangs.
         hangs(board, "serial", 2)
-        same(board.pins.wait_for(READY, 1), True)
         good_part(board)
         pulse(board)
         board.event("hangs")
