@@ -42,10 +42,15 @@ SHORT_S = 3
 figures = {}
 
 
+# A call that the unit forbids would be an error, which a port may get along with.
+KILL = "[Service]\nSystemCallErrorNumber=kill\n"
+
+
 def rig(**options):
-    """With a job for what vivid shows, and the programs that cases ask for."""
+    """With a job for what vivid shows, the programs that cases ask for, and a filter that nothing slips through."""
+    texts = {f"{HOME}/square.toml": JOB, "/etc/systemd/system/fovead.service.d/kill.conf": KILL}
     files = {f"/board/{name}": PROGRAMS / name for name in ("hanging_fovead", "usb_camera")}
-    return ServiceRig(PACKAGE, {f"{HOME}/square.toml": JOB}, files=files, **options)
+    return ServiceRig(PACKAGE, texts, files=files, **options)
 
 
 def at_most(value, limit, what):
@@ -110,8 +115,10 @@ def the_first_measurement_of_the_page_is_one():
         has_rights_of_its_own(board)
         holds(board.text("sudo fovea doctor || true"), "try: sudo systemctl stop fovead, and look again")
 
-        # Lines, and then a job that this part fails.
+        # Lines and a serial port, and then a job that this part fails.
         wire(board)
+        board.change("serial", device='"/dev/ttyS0"')
+        board.change("failures", folder='"/var/lib/fovead"')
         board.must("sudo systemctl reload fovead")
         board.event("reload")
         same(board.pins.wait_for(OK, 1), True)
@@ -121,45 +128,35 @@ def the_first_measurement_of_the_page_is_one():
         same(board.pins.wait_for(NG, 1), True)
         result = board.event("result")
         same((result["verdict"], result["feature"]), ("NG", "holes"))
+        comes_on_the_serial_line(board, "OK", "NG")
         told = board.text("sudo systemctl status fovead")
         holds(told, "Active: active (running)")
         same(re.findall(r'Status: "(part: \d+ OK, \d+ NG, \d+ ERROR, 0 missed)"', told) != [], True)
         # systemd forgets what became of a service that nobody wants.
         board.must("sudo systemctl enable fovead 2> /dev/null")
+
+        board.install()
+        board.event("start")  # it ran, so the new one runs
+        holds(board.text("cat /etc/fovea/fovead.toml"), "pl061")
         stops_within_a_second(board)
+        holds(board.text("sudo ls /var/lib/fovead"), ".pgm")
         nothing_failed(board.text("sudo -u fovead fovea doctor"))
-
-        the_filter_kills_what_it_does_not_let_through(board)
-        comes_again_goes_and_is_purged(board)
+        goes_and_is_purged(board)
 
 
-def the_filter_kills_what_it_does_not_let_through(board):
-    """Otherwise a call that the unit forbids would be an error, which a port may get along with."""
-    board.must("sudo mkdir -p /etc/systemd/system/fovead.service.d")
-    board.must("printf '[Service]\nSystemCallErrorNumber=kill\n' | sudo tee /etc/systemd/system/fovead.service.d/kill.conf")
-    board.change("trigger", source='"line"', line=f'"{TRIGGER}"', debounce_us=1000)
-    board.change("serial", device='"/dev/ttyS0"')
-    board.change("failures", folder='"/var/lib/fovead/failures"')
-    board.must("sudo mkdir -p /var/lib/fovead/failures; sudo chown fovead:fovead /var/lib/fovead/failures")
-    board.must("sudo systemctl daemon-reload; sudo systemctl start fovead")
-    same(board.pins.wait_for(READY, 1), True)
-    for _ in range(2):
-        board.pins.drive(TRIGGER, 1)
-        same(board.event("result")["verdict"], "NG")
-        board.pins.drive(TRIGGER, 0)
-        same(board.pins.wait_for(READY, 1), True)
-        board.must("sudo systemctl reload fovead")
-        board.event("reload")
+def comes_on_the_serial_line(board, *verdicts):
+    """Lines with these come, in this order, whatever is between them."""
     board.board.serial[0].settimeout(5)
-    same(board.board.serial[0].recv(4), b"NG\r\n")
-    same(board.shown("NRestarts", "ActiveState"), {"NRestarts": "0", "ActiveState": "active"})
+    text = b""
+    for verdict in verdicts:
+        while f"{verdict}\r\n".encode() not in text:
+            text += board.board.serial[0].recv(4096)
+        text = text.partition(f"{verdict}\r\n".encode())[2]
 
 
-def comes_again_goes_and_is_purged(board):
-    board.install()
-    board.event("start")  # it ran, so the new one runs
-    holds(board.text("cat /etc/fovea/fovead.toml"), "pl061")
+def goes_and_is_purged(board):
     same(board.must("sudo systemctl is-enabled fovead"), ["enabled"])
+    board.must("sudo systemctl start fovead")
     board.text("sudo dpkg -r fovead 2>&1")
     same(board.run("pidof fovead")[0], 1)
     same(set(board.pins.outputs().values()) - {0}, set())
@@ -222,13 +219,17 @@ def comes_back(board, active, limit, what, hung_us):
 
 def hangs(board, kind, number):
     """Another life of the daemon, in which a call will never come back."""
-    drop_in = ("[Service]\\nExecStart=\\nExecStart=/board/hanging_fovead --config /etc/fovea/fovead.toml\\n"
-               f"WatchdogSec={SHORT_S}\\nEnvironment=\"FOVEA_HANG={kind} {number} /var/lib/fovead/{kind}\"\\n")
-    board.must("sudo mkdir -p /etc/systemd/system/fovead.service.d")
-    board.must(f"printf '{drop_in}' | sudo tee /etc/systemd/system/fovead.service.d/hang.conf")
-    board.must("sudo systemctl daemon-reload; sudo systemctl restart fovead")
-    same(board.shown("WatchdogUSec"), {"WatchdogUSec": f"{SHORT_S}s"})
+    board.must(f"echo 'FOVEA_HANG={kind} {number} /var/lib/fovead/{kind}' | sudo tee /etc/fovea/hang")
+    board.must("sudo systemctl restart fovead")
     same(board.pins.wait_for(READY, 1), True)
+
+
+def lets_calls_hang(board):
+    """From the next start on the program is the one whose calls may hang."""
+    unit = ("[Service]\\nExecStart=\\nExecStart=/board/hanging_fovead --config /etc/fovea/fovead.toml\\n"
+            f"EnvironmentFile=/etc/fovea/hang\\nWatchdogSec={SHORT_S}\\n")
+    board.must(f"printf '{unit}' | sudo tee /etc/systemd/system/fovead.service.d/hang.conf")
+    board.must("sudo systemctl daemon-reload")
 
 
 @case
@@ -244,6 +245,7 @@ def a_daemon_that_hangs_is_started_again_with_its_lines_safe():
         same(board.shown("NRestarts"), {"NRestarts": "1"})
 
         # One stage of it, the rest as it is: a frame is asked for and none comes, nor an error.
+        lets_calls_hang(board)
         hangs(board, "frame", 30)
         hung = board.event("hangs")
         comes_back(board, READY, SHORT_S + 2, f"a call for a frame hangs, WatchdogSec={SHORT_S}", hung["t_mono_us"])
