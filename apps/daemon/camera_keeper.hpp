@@ -85,7 +85,13 @@ public:
                 tries_ = 0;
                 end_trouble(now_us);
                 return got;
-            case Status::timeout: return now_us - heard_us_ > silence_us() ? break_silence(now_us) : got;
+            case Status::timeout:
+                // What was passed over is no silence: whoever asks was busy, and all that came is too old.
+                if (const std::uint64_t passed = camera_.counters().passed_over; passed != passed_over_) {
+                    passed_over_ = passed;
+                    heard_us_ = now_us;
+                }
+                return now_us - heard_us_ > silence_us() ? break_silence(now_us) : got;
             case Status::no_signal:
                 heard_us_ = now_us;
                 begin_trouble(CameraTrouble::no_signal, got, now_us);
@@ -214,6 +220,7 @@ private:
     std::int64_t heard_us_ = 0;
     std::int64_t since_us_ = 0;
     std::uint64_t recoveries_ = 0;
+    std::uint64_t passed_over_ = 0;
     CameraTrouble trouble_ = CameraTrouble::none;
     Status trouble_status_ = Status::timeout;
     CameraEvent event_;

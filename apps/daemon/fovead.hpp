@@ -25,6 +25,7 @@
 #include <daemon/replay_opening.hpp>
 #include <daemon/settings.hpp>
 #include <daemon/settings_reader.hpp>
+#include <daemon/status_line.hpp>
 
 namespace fovea::apps {
 
@@ -131,6 +132,7 @@ inline const char* fovead_help() {
            "options:\n"
            "  --config FILE           settings (/etc/fovea/fovead.toml)\n"
            "  --check-config          only say whether settings and jobs are good\n"
+           "  --make-safe             only make all lines inactive, after a daemon that was killed\n"
            "  --sample-config         print settings with every key, its default and its help\n"
            "  --settings-manual       the same as text of a manual page\n"
            "  --version               print the version\n"
@@ -173,6 +175,7 @@ int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& fi
         return daemon_unavailable;
     }
     static_cast<void>(notify.ready());
+    StatusLine status;
     // Between READY and the end nothing is allocated, but to read the settings anew.
     for (;;) {
         const DaemonSignals signals = take_signals();
@@ -203,6 +206,8 @@ int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& fi
         const std::int64_t next_us = session->daemon().turn();
         // The watchdog is fed by turns that came to their end, and by nothing else.
         notify.feed();
+        if (const char* const line = status.turn(session->world(), session->daemon()))
+            static_cast<void>(notify.status(line));
         const std::int64_t now_us = session->world().now_us();
         session->world().wait(next_us < now_us + 1000000 ? next_us : now_us + 1000000, signal_file);
     }
@@ -218,7 +223,7 @@ int fovead(const std::vector<std::string>& words, Io& io, System system,
            const linux_port::NotifyEnvironment& environment, int signal_file, TakeSignals take_signals,
            const char* version) {
     std::string config = "/etc/fovea/fovead.toml";
-    bool check = false;
+    bool check = false, make_safe = false;
     for (std::size_t k = 0; k < words.size(); ++k) {
         const std::string& word = words[k];
         if (word == "--help" || word == "-h") return io.print(fovead_help()), daemon_ok;
@@ -227,11 +232,14 @@ int fovead(const std::vector<std::string>& words, Io& io, System system,
         if (word == "--settings-manual") return io.print(settings_manual()), daemon_ok;
         if (word == "--check-config") {
             check = true;
+        } else if (word == "--make-safe") {
+            make_safe = true;
         } else if (word == "--config" && k + 1 < words.size()) {
             config = words[++k];
         } else {
-            const std::vector<std::string> known = {"--config",          "--check-config", "--sample-config",
-                                                    "--settings-manual", "--version",      "--help"};
+            const std::vector<std::string> known = {"--config",        "--check-config",    "--make-safe",
+                                                    "--sample-config", "--settings-manual", "--version",
+                                                    "--help"};
             io.complain(word == "--config"
                             ? "fovead: --config wants a file"
                             : "fovead: unknown option " + one_line(word) + hint(nearest_name(word, known)));
@@ -246,6 +254,12 @@ int fovead(const std::vector<std::string>& words, Io& io, System system,
     if (check) {
         io.print(config + ": good, " + std::to_string(files.jobs.size()) + " jobs\n");
         return daemon_ok;
+    }
+    if (make_safe) {
+        LinuxWorld<CameraOpening<System>> world(files.settings, files.jobs, system);
+        const std::string problem = world.make_safe();
+        if (!problem.empty()) io.complain("fovead: " + problem);
+        return problem.empty() ? daemon_ok : daemon_unavailable;
     }
     linux_port::ServiceNotify<System> notify(system, environment);
     const auto run = [&](auto session) {

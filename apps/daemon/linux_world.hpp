@@ -87,6 +87,9 @@ public:
     /// Opens what the settings name and lays out all memory. Empty if all is well, or what is not and what to
     /// try. A serial port that is not there may come later; a camera only if its size is set.
     std::string open();
+    /// Takes the lines alone, all inactive: for a daemon that was killed and could not do it. Empty, or what
+    /// is wrong.
+    std::string make_safe() { return open_lines(); }
 
     // ---- What the daemon sees ----
 

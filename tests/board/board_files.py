@@ -3,6 +3,7 @@ import shlex
 import shutil
 from pathlib import Path
 
+import systemd_files
 from debian import BoardError, Packages
 from initramfs import Archive
 
@@ -20,11 +21,13 @@ def busybox(cache):
     return cache.entry("busybox", fetch)
 
 
-def package_layer(cache, name):
-    """A package of Debian and what it needs, as an archive."""
+def package_layer(cache, names):
+    """Packages of Debian and what they need, as an archive."""
+    name = "+".join(names)
+
     def fetch(new):
         unpacked = cache.folder / f"new.package-{name}"
-        Packages(cache).unpack_with_all_it_needs(name, unpacked)
+        Packages(cache).unpack_with_all_they_need(names, unpacked)
         layer = Archive()
         for entry in sorted(unpacked.iterdir()):
             layer.tree(entry.name, entry)
@@ -39,9 +42,13 @@ def own_layer(board, cache, modules):
     for folder in FOLDERS:
         layer.folder(folder)
     layer.file("init", (HERE / "guest_init").read_bytes(), 0o755)
+    layer.file("board/run", (HERE / "guest_run").read_bytes())
     layer.file("bin/busybox", busybox(cache).read_bytes(), 0o755)
-    layer.file("etc/passwd", b"root:x:0:0:root:/tmp:/bin/sh\n")
-    layer.file("etc/group", b"root:x:0:\ndialout:x:20:\nvideo:x:44:\n")
+    if board.systemd:
+        systemd_files.add_to(layer)
+    else:
+        layer.file("etc/passwd", b"root:x:0:0:root:/tmp:/bin/sh\n")
+        layer.file("etc/group", b"root:x:0:\ndialout:x:20:\nvideo:x:44:\n")
     layer.file("etc/hosts", b"127.0.0.1 localhost board\n")
     for module in modules:
         layer.file(f"lib/modules/{module.name}", module.read_bytes())

@@ -1,11 +1,8 @@
 """fovead on the emulated board: its settings, its pictures, and what it says."""
-import json
-import subprocess
-import tempfile
 import time
 from pathlib import Path
 
-from emulated_board import EmulatedBoard
+from board_shell import BoardShell
 
 WIDTH, HEIGHT = 640, 480
 READY, BUSY, VALID, OK, NG, ALARM, TRIGGER = 1, 2, 4, 5, 6, 7, 0  # line 3 has the board's power button
@@ -63,12 +60,13 @@ def disc(hole):
     return bytes(pixels)
 
 
-class DaemonRig:
-    """A board with a shell that is told what to do, and fovead that runs beside it."""
+class DaemonRig(BoardShell):
+    """A board with fovead on it, by its settings and a job."""
 
     def __init__(self, programs, settings, **options):
         """programs: the folder of what was compiled for the board; settings: those of fovead, without the format."""
-        self.folder = tempfile.TemporaryDirectory()
+        options.setdefault("seconds", 90)
+        super().__init__(["sh"], **options)
         here = Path(self.folder.name)
         (here / "jobs").mkdir()
         (here / "jobs/disc.toml").write_text(RECIPE)
@@ -80,47 +78,12 @@ class DaemonRig:
         files = {"/test": here}
         for name in ("fovead", "show_pictures", "usb_camera", "camera_on_board", "fovead_counted"):
             files[f"/bin/{name}"] = Path(programs) / name
-        options.setdefault("seconds", 90)
-        self.board = EmulatedBoard(["sh"], files=files, stdin=subprocess.PIPE, **options)
-        self.events, self.commands = [], 0
+        self.options["files"] = files
 
     def __enter__(self):
-        self.board.__enter__()
-        self.pins = self.board.pins
+        super().__enter__()
         self.run("mkdir -p /tmp; ln -s /test /etc/fovea")
         return self
-
-    def __exit__(self, *error):
-        try:
-            return self.board.__exit__(*error)
-        finally:
-            self.folder.cleanup()
-
-    def line(self):
-        """The next line of anybody on the board; what fovead said is kept as events."""
-        line = self.board.stdout.line()
-        if line is None:
-            raise AssertionError(f"the board has ended: {self.board.stderr.everything().decode()}{self.board.trouble}")
-        if line.startswith("{"):
-            self.events.append(json.loads(line))
-        return line
-
-    def tell(self, command):
-        self.board.process.stdin.write(f"{command}\n".encode())
-        self.board.process.stdin.flush()
-
-    def run(self, command):
-        """(status, lines) of a command on the board."""
-        self.commands += 1
-        mark = f"@{self.commands}"
-        self.tell(f"{command}\necho {mark} $?")
-        lines = []
-        while True:
-            line = self.line()
-            if line.startswith(mark + " "):
-                return int(line.split()[1]), lines
-            if not line.startswith("{"):
-                lines.append(line)
 
     def start(self, options=""):
         """Starts fovead, and waits until it says so."""
@@ -132,15 +95,6 @@ class DaemonRig:
         begin = time.monotonic()
         status, _ = self.run("kill $daemon; wait $daemon")
         return status, time.monotonic() - begin
-
-    def event(self, *kinds):
-        """The next event of one of these kinds; those before it are gone."""
-        while True:
-            while self.events:
-                event = self.events.pop(0)
-                if event["ev"] in kinds:
-                    return event
-            self.line()
 
     def show(self, name):
         """Lets the camera of vivid see a picture."""

@@ -12,7 +12,8 @@ from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[2]
 # What no program of a board reads.
-NOT_NEEDED = ("usr/share/doc", "usr/share/man", "usr/share/locale", "usr/share/info", "usr/share/lintian")
+NOT_NEEDED = ("usr/share/doc", "usr/share/man", "usr/share/locale", "usr/share/info", "usr/share/lintian",
+              "usr/lib/*/gconv", "usr/lib/*/perl-base", "usr/share/perl*", "lib/udev/hwdb.d", "usr/lib/udev/hwdb.d")
 
 
 class BoardError(Exception):
@@ -105,16 +106,17 @@ class Packages:
             self.get("download", name, folder=work)
             self.extract(work, folder)
 
-    def unpack_with_all_it_needs(self, name, folder):
-        """A package and what apt would add to it on an empty system."""
+    def unpack_with_all_they_need(self, names, folder):
+        """Packages and what apt would add to them on an empty system."""
         self.index()
         archives = self.folder / "cache/archives"
         for old in archives.glob("*.deb"):
             old.unlink()
-        self.get("install", "-y", "--download-only", name)
+        self.get("install", "-y", "--download-only", *names)
         self.extract(archives, folder)
         for unread in NOT_NEEDED:
-            shutil.rmtree(folder / unread, ignore_errors=True)
+            for path in folder.glob(unread):
+                shutil.rmtree(path)
 
     def extract(self, archives, folder):
         found = sorted(archives.glob("*.deb"))

@@ -25,6 +25,7 @@ from pathlib import Path
 
 import board_files
 import qemu
+import systemd_files
 from debian import BoardError, Cache
 from kernel import Kernel, plain
 from pl061 import Pins
@@ -74,9 +75,12 @@ class EmulatedBoard:
     files       {path on the board: file or folder of the host}
     fetch       {path on the board: where wait() puts it on the host}
     packages    Debian's packages, with what they need
+    systemd     the first process is Debian's systemd, with udev; the command is a service of it
     modules     of the kernel, each with its options behind a blank
     cameras     how many of vivid; loop: fed by outputs; vivid: further options
     cpus, memory_mb
+    steady      its time counts the instructions of its one processor, 250 to the microsecond: what shares the host
+                with it makes it no slower by its own clock
     serial      far ends of /dev/ttyS0..: "socket" is connected in board.serial[0], "pty" has its path there,
                 "unix:PATH" listens
     usb_serial  the same of /dev/ttyUSB0.., with unplug_usb_serial(0) and plug_usb_serial(0)
@@ -88,12 +92,13 @@ class EmulatedBoard:
     seconds     until it is stopped, from its start
     """
 
-    def __init__(self, command, *, files=None, fetch=None, packages=(), modules=(), cameras=0, loop=False,
-                 vivid="", cpus=1, memory_mb=512, serial=(), usb_serial=(), ports=None, disks=(), stdin=None,
-                 resume=None, seconds=60):
-        self.command, self.packages = list(command), list(packages)
+    def __init__(self, command, *, files=None, fetch=None, packages=(), systemd=False, modules=(), cameras=0,
+                 loop=False, vivid="", cpus=1, steady=False, memory_mb=512, serial=(), usb_serial=(), ports=None, disks=(),
+                 stdin=None, resume=None, seconds=60):
+        self.command, self.systemd = list(command), systemd
+        self.layers = package_layers(packages, systemd)
         self.files, self.fetch = files or {}, fetch or {}
-        self.cpus, self.memory_mb, self.seconds, self.stdin = cpus, memory_mb, seconds, stdin
+        self.cpus, self.steady, self.memory_mb, self.seconds, self.stdin = cpus, steady, memory_mb, seconds, stdin
         self.serial_ends, self.usb_serial_ends = list(serial), list(usb_serial)
         self.ports, self.disks, self.resume = ports or {}, list(disks), resume
         needed = ["virtio_pci", "virtio_console"]
@@ -136,7 +141,7 @@ class EmulatedBoard:
         with cache.locked():
             kernel = Kernel(cache)
             modules = kernel.in_order(self.modules)
-            layers = [board_files.package_layer(cache, name) for name in self.packages]
+            layers = [board_files.package_layer(cache, names) for names in self.layers]
             with (self.folder / "initrd").open("wb") as initrd:
                 for layer in layers:
                     initrd.write(layer.read_bytes())
@@ -271,6 +276,11 @@ class EmulatedBoard:
                 if "in use" not in str(error) or time.monotonic() > end:
                     raise
                 time.sleep(LATENCY_S)
+
+
+def package_layers(packages, systemd):
+    """Those of one layer share what they need."""
+    return [[*systemd_files.PACKAGES, *packages]] if systemd else [[name] for name in packages]
 
 
 def exit_on_signals():

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints docs/faults.md: the faults that are provoked, what must become of each, and where it is proved.
 
-usage: faults_page.py [FIGURES...]             FIGURES as ports_test.py, power_cut.py and fovead_test.py write them
+usage: faults_page.py [FIGURES...]             FIGURES as ports_test.py, power_cut.py, fovead_test.py and service_test.py write them
        faults_page.py --check PAGE [FIGURES...]  PAGE must be that, but for the numbers; every proof must be there
 """
 import re
@@ -85,6 +85,9 @@ ROWS = [
      "time_may_step_by_a_year"),
     ("F27", "a limit of memory", "ulimit -v on the board", "status 71 or 69 with a sentence before READY; after it nothing is allocated",
      "a_limit_of_memory_is_told nothing_is_allocated_after_the_start"),
+    ("F28", "a stage hangs", "under systemd: a call for a frame, a line or the serial port never comes back; SIGSTOP",
+     "no answer is shown, the watchdog ends it and all lines are inactive; begun again 2 s after WatchdogSec at the latest, it judges",
+     "a_daemon_that_hangs_is_started_again_with_its_lines_safe"),
     ("F30", "two daemons, one camera, port or line", "started twice", "the second says who holds it, status 69",
      "what_is_wrong_at_the_start_is_said_in_a_line"),
     ("F31", "a dark, saturated, covered or defocused picture", "rendered scenes, blurred and dimmed",
@@ -95,7 +98,6 @@ ROWS = [
 MISSING = [
     ("F24 to F26", "network servers", "the daemon has none"),
     ("F29", "no file left to open", "EMFILE is among the errors that every call is made to fail with; not run under a limit"),
-    ("F28", "a stage hangs", "the watchdog is fed by whole turns alone; no test makes a stage hang under systemd"),
 ]
 
 

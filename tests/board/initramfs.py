@@ -41,6 +41,9 @@ class Archive:
     def file(self, name, content, mode=0o644):
         self.entry(name, stat.S_IFREG | mode, content)
 
+    def link(self, name, target):
+        self.entry(name, stat.S_IFLNK | 0o777, target.encode())
+
     def tree(self, name, path):
         """A file or folder of the host, with its modes and links, under NAME."""
         path = Path(path)

@@ -35,13 +35,18 @@ class Pins:
 
     def wait_for(self, line, level, seconds=10):
         """Takes changes until this one comes: is it seen in time?"""
-        end = time.monotonic() + seconds
+        return self.changes_until(line, level, seconds) is not None
+
+    def changes_until(self, line, level, seconds=10):
+        """The changes up to this one, with it; None if it does not come in time."""
+        seen, end = [], time.monotonic() + seconds
         while True:
             while self.events:
-                if self.events.popleft() == (line, level):
-                    return True
+                seen.append(self.events.popleft())
+                if seen[-1] == (line, level):
+                    return seen
             if not self.read(end - time.monotonic()):
-                return False
+                return None
 
     def tell(self, command):
         self.world.sendall(f"{command}\n".encode())

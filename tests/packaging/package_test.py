@@ -104,7 +104,7 @@ def the_settings_that_it_brings_are_good_with_a_job():
 def the_service_is_closed_as_far_as_it_can_be():
     unit = root / "lib/systemd/system/fovead.service"
     text = unit.read_text()
-    for line in ("Type=notify", "WatchdogSec=10", "Restart=always", "RestartSec=1", "RestartPreventExitStatus=64 78",
+    for line in ("Type=notify", "WatchdogSec=10", "Restart=always", "RestartSec=500ms", "TimeoutStopSec=5", "RestartPreventExitStatus=64 78",
                  "StartLimitIntervalSec=0", "ExecReload=kill -HUP $MAINPID", "StateDirectory=fovead",
                  "SupplementaryGroups=video dialout gpio", "DevicePolicy=closed", "DeviceAllow=char-video4linux rw"):
         holds(text, f"\n{line}\n")

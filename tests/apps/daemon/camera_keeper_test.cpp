@@ -165,6 +165,21 @@ TEST(CameraKeeper, BreaksSilenceByAStartThenByOpening) {
     EXPECT_EQ(bench.events, Words({"camera_silent", "none"}));
 }
 
+TEST(CameraKeeper, TakesNoCameraForSilentWhereWhoAsksIsSlow) {
+    Bench bench;
+    bench.run(200000);
+    bench.events.clear();
+    for (int slow = 0; slow < 10; ++slow) {
+        // Longer than a silence; the frames of meanwhile fill all buffers, and are too old for the latest.
+        bench.device.run_until(bench.device.now_us + 1500000);
+        EXPECT_EQ(bench.keeper.fetch(FramePolicy::latest, 60000, bench.frame), Status::timeout);
+        CameraEvent event;
+        EXPECT_FALSE(bench.keeper.take_event(event)) << word_of(event.trouble);
+    }
+    EXPECT_EQ(bench.keeper.recoveries(), 0u);
+    EXPECT_EQ(bench.keeper.trouble(), CameraTrouble::none);
+}
+
 TEST(CameraKeeper, WaitsForASignalWithoutOpening) {
     Bench bench;
     bench.device.has_timings = true;
