@@ -4,6 +4,7 @@
 // them.
 #pragma once
 
+#include <fcntl.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -123,8 +124,10 @@ public:
     const char* camera_advice() {
         return opening_.problem()[0] != '\0' ? opening_.advice() : linux_port::advice(camera_.fault());
     }
+    /// Of the opening, if that was refused; otherwise the port was open, and what ended it has its reason.
     const char* link_fault() {
-        return linux_port::reason(link_.open() ? port_.fault() : port_opening_.fault());
+        const linux_port::Fault& opening = port_opening_.fault();
+        return linux_port::reason(opening.status != Status::ok ? opening : port_.fault());
     }
     std::int64_t frame_interval_us() const {
         return camera_.interval_us() > 0 ? camera_.interval_us() : 1000000 / settings_.camera.rate_per_s;
@@ -196,6 +199,7 @@ private:
     std::string open_lines();
     std::string open_serial();
     std::string lay_out();
+    std::string find_spare_files();
 
     Settings settings_;
     const JobList& jobs_;
@@ -242,7 +246,24 @@ std::string LinuxWorld<TheOpening>::open() {
     if (problem.empty()) problem = open_camera();
     if (problem.empty()) problem = open_serial();
     if (problem.empty()) problem = lay_out();
+    if (problem.empty()) problem = find_spare_files();
     return problem;
+}
+
+/// What is opened later finds room below the limit of this process: a camera or a port that comes back, the
+/// folders in which it is looked for, and a picture that is kept meanwhile.
+template <class TheOpening>
+std::string LinuxWorld<TheOpening>::find_spare_files() {
+    constexpr int wanted = 4;
+    int spare[wanted];
+    int count = 0;
+    int got = 0;
+    while (count < wanted && (got = system_.open("/dev/null", O_RDONLY | O_CLOEXEC)) >= 0) spare[count++] = got;
+    for (int k = 0; k < count; ++k) static_cast<void>(linux_port::close_file(system_, spare[k]));
+    if (count == wanted) return "";
+    linux_port::Fault fault;
+    static_cast<void>(linux_port::refused(fault, "open", got));
+    return std::string(linux_port::reason(fault)) + "; " + linux_port::advice(fault);
 }
 
 template <class TheOpening>
