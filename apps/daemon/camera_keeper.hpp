@@ -117,7 +117,7 @@ public:
     /// True while frames are expected of it.
     bool streaming() const { return streaming_; }
     /// When fetch() has something to try: not before that, unless the camera has a frame.
-    std::int64_t next_try_us() const { return streaming_ ? heard_us_ + silence_us() : next_try_us_; }
+    std::int64_t next_try_us() const { return streaming_ ? heard_us_ + silence_us() + 1 : next_try_us_; }
     /// How often it was opened again or started again.
     std::uint64_t recoveries() const { return recoveries_; }
 

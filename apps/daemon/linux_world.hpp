@@ -258,7 +258,8 @@ std::string LinuxWorld<TheOpening>::find_spare_files() {
     int spare[wanted];
     int count = 0;
     int got = 0;
-    while (count < wanted && (got = system_.open("/dev/null", O_RDONLY | O_CLOEXEC)) >= 0) spare[count++] = got;
+    while (count < wanted && (got = system_.open("/dev/null", O_RDONLY | O_CLOEXEC)) >= 0)
+        spare[count++] = got;
     for (int k = 0; k < count; ++k) static_cast<void>(linux_port::close_file(system_, spare[k]));
     if (count == wanted) return "";
     linux_port::Fault fault;
