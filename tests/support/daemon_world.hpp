@@ -179,7 +179,6 @@ public:
 
     // ---- What a test does ----
 
-    void scene_is(bool with_hole) { device.scene = with_hole ? &good : &bad; }
     static std::vector<std::uint8_t> bytes(const std::string& text) { return {text.begin(), text.end()}; }
     void say(const std::string& text) { port.arriving.insert(port.arriving.end(), text.begin(), text.end()); }
     /// What was sent on the serial line since the last call.

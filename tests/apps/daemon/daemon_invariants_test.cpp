@@ -156,22 +156,24 @@ TEST(DaemonWaits, WithoutSpinningForWhateverIsAway) {
 /// From the edge to the answer, 99 of 100 of so many triggers, at the same moments whatever is wrong. Every system
 /// call takes time.
 std::int64_t latency_us(const std::function<void(DaemonWorld&, int)>& fault) {
-    constexpr int triggers = 400;
+    constexpr int triggers = 200;
     DaemonWorld world;
     world.device.call_us = 50;
+    // Judging takes no time of this clock, so none is judged: the answer is ERROR, on the same way.
+    world.quality_verdict = ImageVerdict::dark;
     Daemon<DaemonWorld> daemon(world, options(TriggerSource::line));
     EXPECT_TRUE(daemon.take_job(1));
     run(world, daemon, 300000);
     Random random(7);
     std::int64_t at_us = 2000000;
     for (int k = 0; k < triggers; ++k) {
-        at_us += 200000 + random.below(40000);
+        at_us += 100000 + random.below(40000);
         fault(world, k);
         run(world, daemon, at_us - world.device.now_us);
         world.edges.push_back({at_us, 0});
     }
     run(world, daemon, 300000);
-    EXPECT_EQ(daemon.tally().judged(), static_cast<std::uint64_t>(triggers));
+    EXPECT_EQ(daemon.tally().error, static_cast<std::uint64_t>(triggers));
     expect_no_complaint(world, daemon);
     std::vector<std::int64_t> times;
     for (const std::string& line : world.printed)
@@ -196,15 +198,12 @@ private:
 };
 
 TEST(DaemonLatency, IsMovedByNoOutput) {
-    const std::int64_t well_us = latency_us([](DaemonWorld& world, int) { world.scene_is(false); });
+    const std::int64_t well_us = latency_us([](DaemonWorld&, int) {});
     // One interval of 40 ms passes at least, and two at most: what comes on top is calls and a part of a frame.
     EXPECT_GT(well_us, 40000);
     EXPECT_LT(well_us, 100000);
     const auto moved_by = [&](const std::function<void(DaemonWorld&, int)>& fault) {
-        const std::int64_t us = latency_us([&](DaemonWorld& world, int k) {
-            world.scene_is(false);
-            fault(world, k);
-        });
+        const std::int64_t us = latency_us(fault);
         return (us - well_us) * 100 / well_us;
     };
     // What waits is seen: calls of 3 ms, of which a turn makes some ten.
@@ -246,7 +245,7 @@ TEST(DaemonLatency, IsMovedByNoOutput) {
               }),
               5)
         << "F19: the disk hangs";
-    EXPECT_GT(ring.dropped(), 300u);
+    EXPECT_GT(ring.dropped(), 150u);
     hangs = false;
     EXPECT_EQ(ring.stop(10000000), Status::ok);
 }
@@ -268,8 +267,8 @@ TEST(DaemonProgram, JudgesAThousandFramesOfAReplay) {
         ::close(file);
     };
     const auto picture = [](bool hole) {
-        const std::vector<std::uint8_t> scene = test::disc_scene(160, 120, 20, hole);
-        std::vector<std::uint8_t> bytes = DaemonWorld::bytes("P5\n160 120\n255\n");
+        const std::vector<std::uint8_t> scene = test::disc_scene(80, 60, 20, hole);
+        std::vector<std::uint8_t> bytes = DaemonWorld::bytes("P5\n80 60\n255\n");
         bytes.insert(bytes.end(), scene.begin(), scene.end());
         return bytes;
     };
@@ -279,7 +278,7 @@ TEST(DaemonProgram, JudgesAThousandFramesOfAReplay) {
     write("pictures/2.pgm", picture(false));
     write("jobs/disc.toml", DaemonWorld::bytes(test::disc_recipe()));
     write("fovead.toml", DaemonWorld::bytes("format = 1\n[camera]\nreplay = \"" + std::string(folder.path()) +
-                                            "/pictures\"\nwidth = 160\nheight = 120\nrate_per_s = 10000\n"
+                                            "/pictures\"\nwidth = 80\nheight = 60\nrate_per_s = 10000\n"
                                             "every_frame = true\n[failures]\nfolder = \"" +
                                             std::string(folder.path()) + "/failures\"\npictures = 3\n"));
 
