@@ -83,7 +83,7 @@ private:
     }
 
     Status begin(Camera& camera) {
-        // One that is back takes the mode that it had. To list all modes is most of the calls of an opening, and
+        // One that is back takes the mode that it had. To list all is most of the calls of an opening, and
         // one that is silent is opened every 2 s.
         const bool again = code_ != 0 && camera.configure(code_, size_, wished_interval_us()) == Status::ok;
         if (!again)

@@ -4,7 +4,6 @@
 // them.
 #pragma once
 
-#include <fcntl.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -42,6 +41,7 @@
 #include <daemon/judge.hpp>
 #include <daemon/serial_link.hpp>
 #include <daemon/settings.hpp>
+#include <daemon/spare_files.hpp>
 #include <daemon/verdict_lines.hpp>
 
 namespace fovea::apps {
@@ -199,7 +199,6 @@ private:
     std::string open_lines();
     std::string open_serial();
     std::string lay_out();
-    std::string find_spare_files();
 
     Settings settings_;
     const JobList& jobs_;
@@ -246,25 +245,10 @@ std::string LinuxWorld<TheOpening>::open() {
     if (problem.empty()) problem = open_camera();
     if (problem.empty()) problem = open_serial();
     if (problem.empty()) problem = lay_out();
-    if (problem.empty()) problem = find_spare_files();
-    return problem;
-}
-
-/// What is opened later finds room below the limit of this process: a camera or a port that comes back, the
-/// folders in which it is looked for, and a picture that is kept meanwhile.
-template <class TheOpening>
-std::string LinuxWorld<TheOpening>::find_spare_files() {
-    constexpr int wanted = 4;
-    int spare[wanted];
-    int count = 0;
-    int got = 0;
-    while (count < wanted && (got = system_.open("/dev/null", O_RDONLY | O_CLOEXEC)) >= 0)
-        spare[count++] = got;
-    for (int k = 0; k < count; ++k) static_cast<void>(linux_port::close_file(system_, spare[k]));
-    if (count == wanted) return "";
     linux_port::Fault fault;
-    static_cast<void>(linux_port::refused(fault, "open", got));
-    return std::string(linux_port::reason(fault)) + "; " + linux_port::advice(fault);
+    if (problem.empty() && find_spare_files(system_, fault) != Status::ok)
+        problem = std::string(linux_port::reason(fault)) + "; " + linux_port::advice(fault);
+    return problem;
 }
 
 template <class TheOpening>

@@ -2,7 +2,8 @@
 //
 // Counts the system calls that a program makes, each one, while it goes on as it would:
 //   count_calls PROCESS MILLISECONDS
-// prints "calls N turns N us N": all calls, those of them that wait in ppoll, and the time. The clock costs no call.
+// prints "calls N turns N us N": all calls, those of them that wait in ppoll, and the time. To read the clock
+// is none.
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
 #include <sys/time.h>

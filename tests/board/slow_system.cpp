@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Linked into the daemon with --wrap=write and --wrap=fsync: its standard output takes 200 ms for each result while
-// /tmp/slow_output is there, and its disk hangs while /tmp/disk_hangs is.
+// Linked into the daemon with --wrap=write and --wrap=fsync: its standard output takes 200 ms for each result
+// while /tmp/slow_output is there, and its disk hangs while /tmp/disk_hangs is.
 #include <unistd.h>
 
 #include <cstring>

@@ -44,8 +44,8 @@ public:
         take_event(line, event);
     }
 
-    /// A turn of the loop that nothing brought but the time: with so many system calls, while so many things were
-    /// wrong.
+    /// A turn of the loop that nothing brought but the time: with so many system calls, while so many things
+    /// were wrong.
     void take_idle_turn(std::int64_t now_us, int calls, int troubles) {
         if (troubles == 0) return end_wait(now_us);
         if (wait_since_us_ < 0) wait_since_us_ = now_us, idle_calls_ = 0, troubles_at_once_ = 0;
@@ -62,8 +62,8 @@ public:
                      std::to_string(lasted_us / 1000) + " ms of waiting");
     }
 
-    /// The end. edges: triggers come of nothing else; waiting: the last has no answer yet; handles: of the camera
-    /// that are open, and how many should be.
+    /// The end. edges: triggers come of nothing else; waiting: the last has no answer yet; handles: of the
+    /// camera that are open, and how many should be.
     void end(std::int64_t now_us, bool by_edges, bool waiting, int handles, int wanted_handles) {
         end_wait(now_us);
         const std::uint64_t open = waiting ? 1 : 0;

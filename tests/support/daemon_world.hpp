@@ -198,7 +198,8 @@ public:
         }
         return words;
     }
-    /// Lets time pass as poll() does: until something comes, or that moment. False: nothing came but the time.
+    /// Lets time pass as poll() does: until something comes, or that moment. False: nothing came but the
+    /// time.
     bool wait(std::int64_t until_us) {
         device.enter_call();
         const bool reads = link_.open() && (port.pulled || !port.arriving.empty());

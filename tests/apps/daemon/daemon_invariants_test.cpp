@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What must hold of the daemon whatever is wrong around it: that its invariants are seen to break, that it waits
-// without spinning (I5), and that no output moves a verdict (I7).
+// What must hold of the daemon whatever is wrong around it: that its invariants are seen to break, that it
+// waits without spinning (I5), and that no output moves a verdict (I7).
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
@@ -153,8 +153,8 @@ TEST(DaemonWaits, WithoutSpinningForWhateverIsAway) {
 
 // ---- I7 -----------------------------------------------------------------------------------
 
-/// From the edge to the answer, 99 of 100 of so many triggers, at the same moments whatever is wrong. Every system
-/// call takes time.
+/// From the edge to the answer, 99 of 100 of so many triggers, at the same moments whatever is wrong. Every
+/// system call takes time.
 std::int64_t latency_us(const std::function<void(DaemonWorld&, int)>& fault) {
     constexpr int triggers = 200;
     DaemonWorld world;
@@ -199,7 +199,7 @@ private:
 
 TEST(DaemonLatency, IsMovedByNoOutput) {
     const std::int64_t well_us = latency_us([](DaemonWorld&, int) {});
-    // One interval of 40 ms passes at least, and two at most: what comes on top is calls and a part of a frame.
+    // One interval of 40 ms passes at least, and two at most; calls and a part of a frame come on top.
     EXPECT_GT(well_us, 40000);
     EXPECT_LT(well_us, 100000);
     const auto moved_by = [&](const std::function<void(DaemonWorld&, int)>& fault) {

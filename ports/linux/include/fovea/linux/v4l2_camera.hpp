@@ -357,8 +357,8 @@ Status V4l2Camera<System>::first(std::int64_t patience_us, Frame& frame, Wanted 
     }
 }
 
-/// The newest frame there is, or the next if that is too old. A frame that was not there a moment ago is as new as
-/// any can be, however long it was on its way from the sensor.
+/// The newest frame there is, or the next if that is too old. One that was not there a moment ago is as new
+/// as any can be, however long it was on its way from the sensor.
 template <class System>
 Status V4l2Camera<System>::latest(std::int64_t max_age_us, std::int64_t patience_us, Frame& frame) {
     if (const Status s = begin(frame); s != Status::ok) return s;
