@@ -53,8 +53,8 @@ enum class FramePolicy : std::uint8_t { latest, every, after_trigger };
 ///
 /// A broken stream is started again at once, and if that does not bring a frame, the camera is opened again.
 /// A lost camera is looked for at once, then after 0.1, 0.2, 0.5, 1 and every 2 s. A silent one is started
-/// again after the longer of 1 s and 5 intervals, then opened again, and if that does not help every 2 s: it is
-/// there, and does not come sooner for being opened more often.
+/// again after the longer of 1 s and 5 intervals, then opened again, and if that does not help every 2 s: it
+/// is there, and does not come sooner for being opened more often.
 template <class Camera, class Clock, class Opening>
 class CameraKeeper {
 public:
