@@ -53,7 +53,8 @@ enum class FramePolicy : std::uint8_t { latest, every, after_trigger };
 ///
 /// A broken stream is started again at once, and if that does not bring a frame, the camera is opened again.
 /// A lost camera is looked for at once, then after 0.1, 0.2, 0.5, 1 and every 2 s. A silent one is started
-/// again after the longer of 1 s and 5 intervals, then opened again as if it were lost.
+/// again after the longer of 1 s and 5 intervals, then opened again, and if that does not help every 2 s: it
+/// is there, and does not come sooner for being opened more often.
 template <class Camera, class Clock, class Opening>
 class CameraKeeper {
 public:
@@ -130,7 +131,7 @@ public:
     /// True while frames are expected of it.
     bool streaming() const { return streaming_; }
     /// When fetch() has something to try: not before that, unless the camera has a frame.
-    std::int64_t next_try_us() const { return streaming_ ? heard_us_ + silence_us() : next_try_us_; }
+    std::int64_t next_try_us() const { return streaming_ ? heard_us_ + silence_us() + 1 : next_try_us_; }
     /// How often it was opened again or started again.
     std::uint64_t recoveries() const { return recoveries_; }
 
@@ -143,9 +144,9 @@ private:
     /// The schedule of tries: microseconds until the one after so many.
     static constexpr std::int64_t delay_us(int tries) {
         constexpr std::int64_t delays[] = {0, 100000, 200000, 500000, 1000000, 2000000};
-        constexpr int last = 5;
-        return delays[tries < last ? tries : last];
+        return delays[tries < last_try ? tries : last_try];
     }
+    static constexpr int last_try = 5;
 
     bool try_to_open(Frame& frame) {
         const std::int64_t now_us = clock_.microseconds();
@@ -186,7 +187,10 @@ private:
 
     Status break_silence(std::int64_t now_us) {
         begin_trouble(CameraTrouble::silent, Status::timeout, now_us);
-        if (restarted_ || !restart(now_us)) lose(now_us);
+        if (restarted_ || !restart(now_us)) {
+            if (tries_ > 0) tries_ = last_try;
+            lose(now_us);
+        }
         return Status::timeout;
     }
 

@@ -83,6 +83,22 @@ private:
     }
 
     Status begin(Camera& camera) {
+        // One that is back takes the mode that it had. To list all is most of the calls of an opening, and
+        // one that is silent is opened every 2 s.
+        const bool again = code_ != 0 && camera.configure(code_, size_, wished_interval_us()) == Status::ok;
+        if (!again)
+            if (const Status s = choose(camera); s != Status::ok) return s;
+        if (const Status s = set_controls(camera); s != Status::ok) return s;
+        if (const Status s = camera.start(static_cast<int>(settings_.camera.buffers)); s != Status::ok)
+            return fail(s, camera.fault());
+        return Status::ok;
+    }
+
+    std::int32_t wished_interval_us() const {
+        return static_cast<std::int32_t>(1000000 / settings_.camera.rate_per_s);
+    }
+
+    Status choose(Camera& camera) {
         if (const Status s = camera.modes(modes_.view()); s != Status::ok && s != Status::capacity_exceeded)
             return fail(s, camera.fault());
         linux_port::CameraWish wish;
@@ -90,7 +106,7 @@ private:
         // What was laid out once stays: a camera that comes back in another size does not fit.
         if (!size_.empty()) wish.size = size_;
         wish.format = settings_.camera.format;
-        wish.interval_us = static_cast<std::int32_t>(1000000 / settings_.camera.rate_per_s);
+        wish.interval_us = wished_interval_us();
         const linux_port::CameraChoice choice = linux_port::choose_mode(modes_.span(), wish);
         if (choice.index < 0)
             return fail(choice.reason == linux_port::CameraReason::no_such_size ? Status::size_mismatch
@@ -99,9 +115,7 @@ private:
         const linux_port::CameraMode& mode = modes_[choice.index];
         if (const Status s = camera.configure(mode.code, choice.size, wish.interval_us); s != Status::ok)
             return fail(s, camera.fault());
-        if (const Status s = set_controls(camera); s != Status::ok) return s;
-        if (const Status s = camera.start(static_cast<int>(settings_.camera.buffers)); s != Status::ok)
-            return fail(s, camera.fault());
+        code_ = mode.code;
         size_ = choice.size;
         format_ = mode.format;
         return Status::ok;
@@ -141,6 +155,8 @@ private:
     System system_;
     linux_port::DevicePath path_;
     List<linux_port::CameraMode, 256> modes_;
+    /// Of the mode that was chosen last.
+    std::uint32_t code_ = 0;
     Size size_;
     hal::PixelFormat format_ = hal::PixelFormat::none;
     Problem problem_;

@@ -367,7 +367,7 @@ std::int64_t Daemon<World>::turn() {
     std::int64_t next_us = world_.camera().next_try_us();
     const auto sooner = [&](std::int64_t at_us) { next_us = at_us < next_us ? at_us : next_us; };
     if (const std::int64_t pulse_us = lines.turn(now_us); pulse_us >= 0) sooner(pulse_us);
-    events_.tell_lines(lines.take_fault());
+    events_.tell_lines(lines.take_fault(), lines.lost());
     events_.tell_trigger(world_.trigger_status());
     FailureRingEvent failure;
     while (world_.take_failure_event(failure)) events_.tell_failures(failure);

@@ -30,8 +30,12 @@ public:
             begin("camera_back").text(",\"after_us\":").number(event.lasted_us);
             return end();
         }
-        begin(word_of(event.trouble)).text(",\"reason\":").json(letters_of(world_.camera_fault()));
-        const char* const advice = world_.camera_advice();
+        // Where nothing came, no call was refused: the fault that the camera remembers is an older one.
+        const bool silent = event.status == Status::timeout;
+        const char* const reason = silent ? "no frame comes" : world_.camera_fault();
+        const char* const advice =
+            silent ? "look at its cable, its light and its trigger" : world_.camera_advice();
+        begin(word_of(event.trouble)).text(",\"reason\":").json(letters_of(reason));
         if (advice[0] != '\0') line_.text(",\"try\":").json(letters_of(advice));
         end();
     }
@@ -65,12 +69,12 @@ public:
         end();
     }
 
-    /// Of every turn: what a pin answered.
-    void tell_lines(Status pin) {
-        const bool told = lines_ != Status::ok;
-        lines_ = pin;
-        if (pin == Status::ok || told) return;
-        begin("lines_lost").text(",\"reason\":").json(letters_of(describe(pin)));
+    /// Of every turn: what a pin answered, and whether there is one of which it is not known how it stands.
+    void tell_lines(Status pin, bool lost) {
+        if (lost == lines_lost_) return;
+        lines_lost_ = lost;
+        begin(lost ? "lines_lost" : "lines_back");
+        if (lost) line_.text(",\"reason\":").json(letters_of(describe(pin)));
         end();
     }
 
@@ -110,7 +114,7 @@ private:
     char room_[1024];
     TextBuffer line_{Span<char>(room_)};
     ImageTrouble image_;
-    Status lines_ = Status::ok;
+    bool lines_lost_ = false;
     Status trigger_ = Status::ok;
 };
 

@@ -3,6 +3,7 @@
 // The files of the daemon: its settings, and the jobs beside them.
 #pragma once
 
+#include <cerrno>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct DaemonFiles {
     std::string problem;
     /// The settings could be read, whatever became of the jobs.
     bool settings_good = false;
+    /// They could not be read for want of a file to open them with: they may be good.
+    bool no_file_left = false;
 };
 
 /// A path below the folder of another file, if it is not absolute.
@@ -39,10 +42,14 @@ inline std::string beside(const std::string& file, const std::string& path) {
 /// Reads the settings and all jobs.
 inline DaemonFiles read_daemon_files(const std::string& path) {
     DaemonFiles files;
+    const auto starved = [](const linux_port::Fault& fault) {
+        return fault.error == EMFILE || fault.error == ENFILE;
+    };
     linux_port::FileStorage<> storage({}, std::size_t{1} << 20);
     const Result<Span<const std::uint8_t>> text = storage.load(path.c_str());
     if (!text) {
         files.problem = file_problem(path, text.status(), storage);
+        files.no_file_left = starved(storage.fault());
         return files;
     }
     const SettingsProblem found = read_settings(std::string(text->begin(), text->end()), files.settings);
@@ -63,10 +70,14 @@ inline DaemonFiles read_daemon_files(const std::string& path) {
     if (listed != Status::ok) {
         files.problem =
             folder + ": " + linux_port::reason(fault) + "; the folder of the jobs is set in [jobs]";
+        files.no_file_left = starved(fault);
         return files;
     }
     files.problem = files.jobs.read(storage, folder, job_names(names));
-    if (!files.problem.empty()) return files;
+    if (!files.problem.empty()) {
+        files.no_file_left = starved(storage.fault());
+        return files;
+    }
     const Text<63>& start = files.settings.jobs.start;
     files.job = start.empty() ? 1 : files.jobs.find({start.c_str(), start.size()}, 0);
     if (files.job == 0) files.problem = path + ": [jobs] start: no job " + start.c_str() + " in " + folder;

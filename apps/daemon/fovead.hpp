@@ -34,7 +34,7 @@ enum DaemonExit : int {
     daemon_ok = 0,
     daemon_usage = 64,        ///< words that it does not know
     daemon_unavailable = 69,  ///< a device is not there, or another has it
-    daemon_no_memory = 71,    ///< before READY; after it none is asked for
+    daemon_no_memory = 71,    ///< or no file left to open, before READY
     daemon_io = 74,           ///< a disk hangs while settings are read anew
     daemon_config = 78,       ///< the settings or a job are wrong
 };
@@ -249,7 +249,7 @@ int fovead(const std::vector<std::string>& words, Io& io, System system,
     DaemonFiles files = read_daemon_files(config);
     if (!files.problem.empty()) {
         io.complain("fovead: " + files.problem);
-        return daemon_config;
+        return files.no_file_left ? daemon_no_memory : daemon_config;
     }
     if (check) {
         io.print(config + ": good, " + std::to_string(files.jobs.size()) + " jobs\n");

@@ -43,6 +43,7 @@
 #include <daemon/serial_link.hpp>
 #include <daemon/serial_opening.hpp>
 #include <daemon/settings.hpp>
+#include <daemon/spare_files.hpp>
 #include <daemon/verdict_lines.hpp>
 
 namespace fovea::apps {
@@ -104,8 +105,10 @@ public:
     const char* camera_advice() {
         return opening_.problem()[0] != '\0' ? opening_.advice() : linux_port::advice(camera_.fault());
     }
+    /// Of the opening, if that was refused; otherwise the port was open, and what ended it has its reason.
     const char* link_fault() {
-        return linux_port::reason(link_.open() ? port_.fault() : port_opening_.fault());
+        const linux_port::Fault& opening = port_opening_.fault();
+        return linux_port::reason(opening.status != Status::ok ? opening : port_.fault());
     }
     std::int64_t frame_interval_us() const {
         return camera_.interval_us() > 0 ? camera_.interval_us() : 1000000 / settings_.camera.rate_per_s;
@@ -245,7 +248,10 @@ std::string LinuxWorld<TheOpening>::open() {
     if (problem.empty()) problem = begin_workers();
     if (!problem.empty()) return problem;
     lay_out();
-    return begin_failures();
+    if (problem = begin_failures(); !problem.empty()) return problem;
+    linux_port::Fault fault;
+    if (find_spare_files(system_, fault) == Status::ok) return "";
+    return std::string(linux_port::reason(fault)) + "; " + linux_port::advice(fault);
 }
 
 template <class TheOpening>

@@ -75,9 +75,11 @@ private:
         port_.close();
         open_ = false;
         next_try_us_ = now_us + 1000000;
-        told_ = told_ || trouble_ != reason;
+        // A port that was lost is not there when it is looked for: that is the same trouble.
+        told_ = told_ || !(trouble_ == reason || (gone(trouble_) && gone(reason)));
         trouble_ = reason;
     }
+    static bool gone(Status reason) { return reason == Status::device_lost || reason == Status::not_found; }
 
     Port& port_;
     Opening opening_;

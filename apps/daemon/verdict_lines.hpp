@@ -107,6 +107,13 @@ public:
         return fault;
     }
 
+    /// True while it is not known how a line stands, since it refused.
+    bool lost() const {
+        for (const Level level : {ready_, busy_, valid_, ok_, not_ok_, alarm_})
+            if (level == Level::unknown) return true;
+        return false;
+    }
+
     bool busy() const { return busy_ == Level::active; }
     bool valid() const { return valid_ == Level::active; }
 

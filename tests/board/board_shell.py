@@ -12,7 +12,7 @@ class BoardShell:
     def __init__(self, shell, **options):
         self.shell, self.options = shell, options
         self.folder = tempfile.TemporaryDirectory()
-        self.events, self.commands = [], 0
+        self.events, self.commands, self.waits_for = [], 0, None
 
     def __enter__(self):
         self.board = EmulatedBoard(self.shell, stdin=subprocess.PIPE, **self.options)
@@ -31,7 +31,8 @@ class BoardShell:
         line = self.board.stdout.line()
         if line is None:
             self.board.wait()
-            raise AssertionError(f"the board has ended: {self.board.stderr.everything().decode()}{self.board.trouble}")
+            raise AssertionError(f"the board has ended while {self.waits_for} was waited for: "
+                                 f"{self.board.stderr.everything().decode()}{self.board.trouble}")
         if line.startswith("{"):
             self.events.append(json.loads(line))
         return line
@@ -45,6 +46,7 @@ class BoardShell:
         self.commands += 1
         mark = f"@{self.commands}"
         self.tell(f"{command}\necho {mark} $?")
+        self.waits_for = command
         lines = []
         while True:
             line = self.line()
@@ -56,6 +58,7 @@ class BoardShell:
     def event(self, *kinds):
         """The next event of one of these kinds; those before it are gone."""
         while True:
+            self.waits_for = kinds
             while self.events:
                 event = self.events.pop(0)
                 if event["ev"] in kinds:

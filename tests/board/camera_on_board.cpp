@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The camera port on the kernel's own driver vivid, whose faults are provoked by its controls.
-// usage: camera_on_board negotiation|faults|sweep|latest|recovery|"press BUTTON"...
+// usage: camera_on_board negotiation|faults|sweep|latest|recovery|press BUTTON|set CONTROL NUMBER...
 //                                                            with vivid as a webcam at /dev/video0
 //        camera_on_board signal                              with vivid as an input for video signals
 #include <linux/videodev2.h>
@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -325,6 +326,14 @@ void press_button(Proof& proof, const char* name) {
     static_cast<void>(close_file(kernel, file));
 }
 
+/// Sets a control of the driver, for the same.
+void set_control(Proof& proof, const char* name, const char* value) {
+    Kernel kernel;
+    int file = kernel.open(device, O_RDWR | O_CLOEXEC);
+    proof.check(file >= 0 && provoke(file, name, std::atoi(value)), name);
+    static_cast<void>(close_file(kernel, file));
+}
+
 void sweep(Proof& proof) {
     const Holdings before = holdings();
     int typed = 0;
@@ -424,6 +433,8 @@ int main(int count, char** words) {
             recovery(proof);
         else if (part == "press" && k + 1 < count)
             press_button(proof, words[++k]);
+        else if (part == "set" && k + 2 < count)
+            set_control(proof, words[k + 1], words[k + 2]), k += 2;
         else
             proof.check(false, "a part named " + part);
     }

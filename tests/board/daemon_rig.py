@@ -1,11 +1,16 @@
 """fovead on the emulated board: its settings, its pictures, and what it says."""
+import re
 import time
 from pathlib import Path
 
+import invariants
+import mjpeg
 from board_shell import BoardShell
+from invariants import ALARM, BUSY, NG, OK, READY, VALID
 
 WIDTH, HEIGHT = 640, 480
-READY, BUSY, VALID, OK, NG, ALARM, TRIGGER = 1, 2, 4, 5, 6, 7, 0  # line 3 has the board's power button
+TRIGGER = 0  # line 3 has the board's power button
+CHECKED = {}  # {row of the table of faults: the invariants that were checked in it}
 
 RECIPE = """format = 1
 name = "disc"
@@ -31,6 +36,24 @@ search = 10
 nominal = 160
 minus = 1.5
 plus = 1.5
+"""
+
+# What vivid shows by itself has parts, and no holes are counted.
+PATTERN_RECIPE = """format = 1
+name = "pattern"
+[locate]
+part = "dark"
+threshold = "fixed"
+level = 128
+orientation = "none"
+area_min = 1000
+hole_area_min = 1000
+[[feature]]
+name = "holes"
+kind = "hole_count"
+nominal = 0
+minus = 0
+plus = 1000
 """
 
 LINES = f"""[lines]
@@ -63,38 +86,118 @@ def disc(hole):
 class DaemonRig(BoardShell):
     """A board with fovead on it, by its settings and a job."""
 
-    def __init__(self, programs, settings, **options):
+    def __init__(self, programs, settings, recipe=RECIPE, **options):
         """programs: the folder of what was compiled for the board; settings: those of fovead, without the format."""
         options.setdefault("seconds", 90)
         super().__init__(["sh"], **options)
         here = Path(self.folder.name)
         (here / "jobs").mkdir()
-        (here / "jobs/disc.toml").write_text(RECIPE)
+        (here / "jobs/disc.toml").write_text(recipe)
         (here / "fovead.toml").write_text("format = 1\n" + settings)
         for name, hole in (("good", True), ("bad", False)):
             pixels = disc(hole)
             (here / f"{name}.gray").write_bytes(pixels)
+            (here / f"{name}.jpg").write_bytes(mjpeg.encode(pixels, WIDTH, HEIGHT))
             (here / f"{name}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + pixels)
         files = {"/test": here}
-        for name in ("fovead", "show_pictures", "usb_camera", "camera_on_board", "fovead_counted"):
+        for name in ("fovead", "show_pictures", "usb_camera", "camera_on_board", "fovead_counted", "fovead_slow",
+                     "count_calls"):
             files[f"/bin/{name}"] = Path(programs) / name
         self.options["files"] = files
+        self.record, self.unheard = invariants.Record(), b""
+        self.record.stamped_at_end = "usb:" not in settings
 
     def __enter__(self):
         super().__enter__()
         self.run("mkdir -p /tmp; ln -s /test /etc/fovea")
         return self
 
-    def start(self, options=""):
+    def __exit__(self, kind, *error):
+        try:
+            if kind is None:
+                self.pins.read(0)
+                self.record.pins = self.pins.history
+                for row, checked in self.record.rows(invariants.check(self.record)).items():
+                    CHECKED.setdefault(row, set()).update(checked)
+        finally:
+            super().__exit__(kind, *error)
+
+    def line(self):
+        self.pins.read(0)  # QEMU waits for who does not read what its pins do
+        line = super().line()
+        if line.startswith("{"):
+            self.record.said.append(self.events[-1])
+        return line
+
+    def start(self, program="fovead", before=""):
         """Starts fovead, and waits until it says so."""
-        self.tell(f"fovead --config /etc/fovea/fovead.toml {options} < /dev/null 2> /tmp/complaints & daemon=$!")
+        self.tell(f"({before} exec {program} --config /etc/fovea/fovead.toml < /dev/null 2> /tmp/complaints) & daemon=$!")
         return self.event("start")
 
     def stop(self):
         """Ends it: (its status, the seconds that it took)."""
+        if self.record.held:
+            self.hold()
         begin = time.monotonic()
         status, _ = self.run("kill $daemon; wait $daemon")
         return status, time.monotonic() - begin
+
+    def event(self, *kinds):
+        event = super().event(*kinds)
+        if event["ev"] == "result" and not self.record.held:
+            self.hold()
+        return event
+
+    # ---- What the invariants are checked by ----
+
+    def provoke(self, row, onset=None, count=1):
+        """A fault of the table is about to be provoked: so many events of its onset must come of it."""
+        self.record.faults.append((row, onset, count))
+
+    def hold(self):
+        """Notes what the daemon holds of the kernel; nothing may be wrong now."""
+        process = "/proc/$daemon"
+        status, lines = self.run(f"echo $(ls {process}/fd | wc -l) $(wc -l < {process}/maps) "
+                                 f"$(sed -n 's/^Anonymous: *//p' {process}/smaps_rollup)")
+        files, mappings, kib = lines[0].split()[:3]
+        self.record.held.append(((int(files), int(mappings), int(kib)), len(self.record.said)))
+
+    def count_calls(self, row, where, seconds=2, frames=0):
+        """The daemon's system calls a second while that is wrong; frames: so many come in a second."""
+        said = self.run(f"count_calls $daemon {int(seconds * 1000)}")[1][-1]
+        calls, turns, took_us = map(int, re.fullmatch(r"calls (\d+) turns (\d+) us (\d+)", said).groups())
+        self.record.calls.append((row, where, calls, turns, took_us / 1e6, frames))
+        return calls / took_us * 1e6
+
+    def heard(self, count, seconds=5):
+        """So many lines of the serial port's other end; each is whole."""
+        line, end = (self.board.serial or self.board.usb_serial)[0], time.monotonic() + seconds
+        line.settimeout(0.2)
+        while self.unheard.count(b"\n") < count and time.monotonic() < end:
+            try:
+                self.unheard += line.recv(65536)
+            except TimeoutError:
+                pass
+        *lines, self.unheard = self.unheard.split(b"\r\n")
+        lines = [each.decode("ascii") for each in lines]
+        for text in lines:
+            if re.fullmatch(r"\d+;(OK|NG|ERROR);[-0-9.?]*", text):
+                self.record.records.append(text)
+            elif not re.fullmatch(r"(#\w+ )?(OK( .*)?|ERR \d+ .*)", text):
+                raise AssertionError(f"a line that is none on the serial port: {text!r}")
+        return lines
+
+    def statistics(self):
+        """The answer to STAT?, when no trigger waits."""
+        (self.board.serial or self.board.usb_serial)[0].sendall(b"#9 stat?\r\n")
+        end = time.monotonic() + 5
+        while time.monotonic() < end:
+            for text in self.heard(1, 1):
+                if text.startswith("#9 OK"):
+                    self.run("true")  # what was said before it has come
+                    self.record.asked.append((text, len(self.record.said)))
+                    return text
+        raise AssertionError("no answer to STAT?")
 
     def show(self, name):
         """Lets the camera of vivid see a picture."""
@@ -108,9 +211,22 @@ class DaemonRig(BoardShell):
         while self.line() != f"shown /test/{name}.pgm":
             pass
 
+    def edge(self):
+        """On the trigger's line; its end is no trigger."""
+        self.record.edges = (self.record.edges or 0) + 1
+        self.pins.drive(TRIGGER, 1)
+
     def trigger(self):
         """An edge on the trigger's line, and the result that it brings."""
-        self.pins.drive(TRIGGER, 1)
+        self.edge()
         result = self.event("result")
         self.pins.drive(TRIGGER, 0)
         return result
+
+    def latencies(self, where, count):
+        """Of so many triggers, from the edge to the answer, in microseconds."""
+        for _ in range(count):
+            result = self.trigger()
+            self.record.latencies.setdefault(where, []).append(result["us"]["answer"])
+            self.pins.wait_for(READY, 1)
+        return sorted(self.record.latencies[where])

@@ -15,6 +15,7 @@ class Pins:
         name = next(entry["name"] for entry in objects if entry["type"] == "child<pl061>")
         self.path = f"/machine/unattached/{name}"
         self.world, self.unread, self.answers, self.events = world, b"", [], collections.deque()
+        self.history = []  # of all changes
         self.tell(f"irq_intercept_out {self.path}")
 
     def drive(self, line, level):
@@ -70,6 +71,7 @@ class Pins:
             for words in (line.decode().split() for line in lines):
                 if words[0] == "IRQ":
                     self.events.append((int(words[2]), int(words[1] == "raise")))
+                    self.history.append(self.events[-1])
                 else:
                     self.answers.append(words)
             came, seconds = True, 0

@@ -758,6 +758,47 @@ board_alarms = [board_binary, board_proofs]
 
 
 @alarm
+def board_invariants(folder):
+    """What invariants.py sees in the record of a run: each of them broken once."""
+    def result(number, frame, now_us, verdict="OK", age_us=2000):
+        return {"ev": "result", "seq": number, "t_mono_us": now_us, "verdict": verdict,
+                "frame": {"seq": frame, "age_us": age_us}, "us": {"answer": 90000, "judge": 1000}}
+
+    def checked(**changes):
+        answer = [[2, 1], [5, 1], [4, 1], [2, 0], [4, 0], [5, 0]]
+        record = {"said": [{"ev": "start", "interval_us": 40000}, result(1, 5, 1000000), result(2, 9, 2000000, "NG")],
+                  "pins": answer, "records": ["1;OK;160.1", "2;NG;?"], "edges": 2,
+                  "asked": [["OK triggers 2 ok 1 ng 1 error 0 missed 0 us 1 2 3", 3]],
+                  "held": [[[14, 60, 900], 2], [[14, 60, 920], 3]], "calls": [["F1", "away", 60, 20, 4.0, 0]],
+                  "faults": []}
+        record.update(changes)
+        name = folder / f"{len(list(folder.iterdir()))}.json"
+        name.write_text(json.dumps(record))
+        return [PROJECT / "tests/board/invariants.py", name]
+
+    said = json.loads(checked()[1].read_text())["said"]
+    lost, back = {"ev": "camera_lost", "reason": "No such device"}, {"ev": "camera_back"}
+    yield "a run without a fault", checked(), None
+    yield "an answer twice", checked(said=[*said, result(2, 12, 3000000)]), "I1: triggers are numbered [1, 2, 2]"
+    yield "an edge without an answer", checked(edges=3), "I1: 3 edges, 2 answers"
+    yield "other statistics", checked(asked=[["triggers 2 ok 2 ng 0 error 0 missed 0", 3]]), "I1: {'ok': 1"
+    yield "another verdict on the serial line", checked(records=["1;NG;1"]), "I1: on the serial line alone"
+    yield "an old frame", checked(said=[*said[:2], result(2, 9, 2000000, "NG", age_us=50000)]), "I2: NG of trigger 2: its frame began 1000"
+    yield "a frame twice", checked(said=[*said[:2], result(2, 5, 2000000, "NG")]), "I2: NG of trigger 2 of frame 5"
+    yield "a verdict without a camera", checked(said=[*said[:2], lost, said[2], back], asked=[]), "while camera_lost"
+    yield "OK and NG", checked(pins=[[5, 1], [6, 1]]), "I3: change 1: OK and NG together"
+    yield "VALID alone", checked(pins=[[4, 1]]), "I3: change 0: VALID with neither"
+    yield "a file too many", checked(held=[[[14, 60, 900], 2], [[15, 60, 900], 3]]), "I4: 14 files were open, and are 15"
+    yield "more memory", checked(held=[[[14, 60, 900], 2], [[14, 60, 965], 3]]), "I4: mappings and KiB were"
+    yield "a loop that spins", checked(calls=[["F1", "away", 81, 20, 4.0, 0]]), "I5: away: 81 calls in 4.0 s"
+    yield "turns without frames", checked(calls=[["F14", "stuck", 900, 325, 4.0, 60]]), "I5: stuck: 85 turns that no frame brought"
+    yield "a fault told twice", checked(said=[*said, lost, lost, back]), "I6: camera_lost twice"
+    yield "a fault without an end", checked(said=[*said, lost], faults=[["F1", "camera_lost", 1]]), "I6: no end of {'camera_lost'}"
+    yield "a fault that nobody provoked", checked(said=[*said, lost, back]), "I6: {} were provoked"
+    yield "no reason", checked(said=[*said, {**lost, "reason": "ok"}, back]), "I6: no reason"
+
+
+@alarm
 def faults_page(folder):
     """A page of another text than is printed, a proof that is gone, figures that are missing."""
     copies = PROJECT / "tests/board/faults_page.py"

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include <daemon/daemon.hpp>
 #include <daemon/serial_link.hpp>
 
+#include "support/daemon_invariants.hpp"
 #include "support/simulated_camera.hpp"
 
 namespace fovea::test {
@@ -54,11 +56,15 @@ class DaemonWorld {
 public:
     struct Wire {
         Status set(bool active) {
+            world->device.enter_call();
             if (broken) return Status::io_error;
             level = active;
             ++changes;
+            world->invariants.take_level(line, active);
             return Status::ok;
         }
+        DaemonWorld* world = nullptr;
+        DaemonInvariants::Line line = DaemonInvariants::ready;
         bool level = false;
         bool broken = false;
         int changes = 0;
@@ -79,18 +85,25 @@ public:
     /// A serial port of memory, which may be pulled.
     struct Port : simulated::BytePipe {
         Result<int> read(Span<std::uint8_t> into) {
+            device->enter_call();
             if (pulled) return Status::device_lost;
             return BytePipe::read(into);
         }
         Result<int> write(Span<const std::uint8_t> bytes) {
+            device->enter_call();
             if (pulled) return Status::device_lost;
             return BytePipe::write(bytes);
         }
-        void close() {}
+        void close() { device->enter_call(); }
+        SimulatedCamera* device = nullptr;
         bool pulled = false;
     };
     struct PortOpening {
-        Status operator()(Port& opened) const { return opened.pulled ? Status::not_found : Status::ok; }
+        Status operator()(Port& opened) const {
+            // By its identity: a folder is looked through.
+            for (int k = 0; k < 10; ++k) opened.device->enter_call();
+            return opened.pulled ? Status::not_found : Status::ok;
+        }
     };
     using Keeper = apps::CameraKeeper<Camera, WorldClock, CameraOpening>;
     using Link = apps::SerialLink<Port, PortOpening>;
@@ -102,6 +115,7 @@ public:
         good = disc_scene(160, 120, 20, true);
         bad = disc_scene(160, 120, 20, false);
         device.scene = &good;
+        port.device = &device;
         storage.files["jobs/disc.toml"] = bytes(disc_recipe());
         storage.files["jobs/other.toml"] = bytes(disc_recipe("other"));
         problem = job_list.read(storage, "jobs", {"other", "disc"});
@@ -118,6 +132,8 @@ public:
     std::int64_t frame_interval_us() { return camera_.interval_us(); }
     std::uint64_t missed_frames() { return camera_.counters().missed; }
     Status gray(const hal::FrameInfo& info, ImageView<const Gray8>& picture) {
+        invariants.take_frame(info.sequence, info.time_us, camera_.interval_us(),
+                              undecodable == 0 && device.flagged.count(info.sequence) == 0);
         if (undecodable > 0) {
             --undecodable;
             return Status::malformed;
@@ -133,12 +149,18 @@ public:
         if (edges.empty()) return false;
         edge = edges.front();
         edges.pop_front();
+        invariants.take_edges(1 + std::uint64_t{edge.lost});
         return true;
     }
     Status trigger_status() const { return trigger; }
-    void print(Span<const char> line) { printed.emplace_back(line.begin(), line.end()); }
-    void keep_failure(ImageView<const Gray8>, const apps::Inspection& inspection) {
+    void print(Span<const char> line) {
+        device.enter_call();
+        printed.emplace_back(line.begin(), line.end());
+        invariants.take_said(printed.back());
+    }
+    void keep_failure(ImageView<const Gray8> picture, const apps::Inspection& inspection) {
         failures.push_back(inspection.number);
+        if (on_failure) on_failure(picture);
     }
     bool take_failure_event(apps::FailureRingEvent& event) {
         if (failure_events.empty()) return false;
@@ -177,6 +199,23 @@ public:
         }
         return words;
     }
+    /// Lets time pass as poll() does: until something comes, or that moment. False: nothing came but the
+    /// time.
+    bool wait(std::int64_t until_us) {
+        device.enter_call();
+        const bool reads = link_.open() && (port.pulled || !port.arriving.empty());
+        if (reads || !edges.empty() || device.would_wake()) return true;
+        until_us = std::min(until_us, device.now_us + 1000000);
+        const bool frame = device.wakes_at_us() <= until_us;
+        device.run_until(frame ? device.wakes_at_us() : until_us);
+        return frame;
+    }
+    /// How many things are wrong that it waits for the end of.
+    int troubles() const {
+        return (keeper_.trouble() != apps::CameraTrouble::none ? 1 : 0) + (link_.open() ? 0 : 1) +
+               (link_.waiting() ? 1 : 0) + (lines_.lost() ? 1 : 0);
+    }
+
     bool ready() const { return wires[0].level; }
     bool busy() const { return wires[1].level; }
     bool valid() const { return wires[2].level; }
@@ -187,12 +226,16 @@ public:
     SimulatedCamera device;
     std::vector<std::uint8_t> good;
     std::vector<std::uint8_t> bad;
-    Wire wires[6];
+    DaemonInvariants invariants;
+    Wire wires[6] = {{this, DaemonInvariants::ready},  {this, DaemonInvariants::busy},
+                     {this, DaemonInvariants::valid},  {this, DaemonInvariants::ok},
+                     {this, DaemonInvariants::not_ok}, {this, DaemonInvariants::alarm}};
     Port port;
     std::deque<apps::TriggerEdge> edges;
     Status trigger = Status::ok;
     std::vector<std::string> printed;
     std::vector<std::uint64_t> failures;
+    std::function<void(ImageView<const Gray8>)> on_failure;
     std::vector<std::string> samples;
     simulated::MemoryStorage storage;
     apps::JobList job_list;
@@ -212,12 +255,23 @@ private:
     Lines lines_;
 };
 
-/// Lets the daemon run for that time, in turns of up to 5 ms.
+/// Lets the daemon run for that time: a turn when something comes, and when it wants one.
 inline void run(DaemonWorld& world, apps::Daemon<DaemonWorld>& daemon, std::int64_t duration_us) {
     const std::int64_t until_us = world.device.now_us + duration_us;
+    bool brought = true;
+    int turns_at_once = 0;
     while (world.device.now_us < until_us) {
-        daemon.turn();
-        world.device.run_until(std::min(world.device.now_us + 5000, until_us));
+        const std::int64_t begin_us = world.device.now_us;
+        const int before = world.device.calls;
+        const std::int64_t next_us = daemon.turn();
+        const bool came = world.wait(std::min(next_us, until_us));
+        if (!brought)
+            world.invariants.take_idle_turn(begin_us, world.device.calls - before, world.troubles());
+        brought = came;
+        turns_at_once = world.device.now_us > begin_us ? 0 : turns_at_once + 1;
+        if (turns_at_once < 1000) continue;
+        world.invariants.complaints.push_back("I5: 1000 turns without time between them");
+        return;
     }
 }
 

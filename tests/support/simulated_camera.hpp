@@ -72,6 +72,8 @@ struct SimulatedCamera {
     int open_handles = 0;
     int opened = 0;
     int polls = 0;
+    int calls = 0;             ///< of the system, all of them
+    std::int64_t call_us = 0;  ///< that each takes
     bool streaming = false;
 
     /// The signal changes, as an event tells.
@@ -101,6 +103,22 @@ struct SimulatedCamera {
     std::deque<std::uint32_t> events;
     std::int64_t next_frame_us = 0;
     std::uint32_t frame = 0;
+    /// The frames of this stream that were marked or cut short, by their sequence.
+    std::set<std::uint32_t> flagged;
+
+    /// A call of the system: time passes.
+    void enter_call() {
+        ++calls;
+        if (call_us > 0) run_until(now_us + call_us);
+    }
+    /// Whether poll() would come back at once.
+    bool would_wake() const {
+        return open_handles > 0 && (unplugged || fatal || !filled.empty() || !events.empty());
+    }
+    /// When something will wake a poll(), or never.
+    std::int64_t wakes_at_us() const {
+        return streaming && !silent && !fatal && !unplugged ? next_frame_us : INT64_MAX;
+    }
 
     int plane_count() const { return memory_planes; }
     int rows(int plane) const {
@@ -126,6 +144,7 @@ struct SimulatedCamera {
         buffer.queued = false;
         buffer.sequence = first_sequence + number;
         buffer.stamp_us = taken_us + stamp_ahead_us;
+        if (damaged.count(number) != 0 || cut_short.count(number) != 0) flagged.insert(buffer.sequence);
         buffer.flags = stamp_flags | (damaged.count(number) != 0 ? V4L2_BUF_FLAG_ERROR : 0u);
         buffer.used.clear();
         std::size_t offset = 0;
@@ -148,18 +167,21 @@ public:
     explicit SimulatedVideo(SimulatedCamera& camera) : camera_(&camera) {}
 
     int open(const char* path, int, unsigned = 0) {
+        camera_->enter_call();
         if (camera_->path != path) return -ENOENT;
         if (camera_->unplugged) return -ENODEV;
         ++camera_->open_handles;
         return 1000 + camera_->opened++;
     }
     int close(int) {
+        camera_->enter_call();
         if (--camera_->open_handles > 0) return 0;
         stop();
         camera_->buffers.clear();
         return 0;
     }
     int ioctl(int, unsigned long request, void* argument) {
+        camera_->enter_call();
         if (camera_->unplugged) return -ENODEV;
         const auto refused = camera_->refused_once.find(request);
         if (refused != camera_->refused_once.end()) {
@@ -211,6 +233,7 @@ public:
         }
     }
     int poll(Span<pollfd> files, std::int64_t patience_us) {
+        camera_->enter_call();
         ++camera_->polls;
         pollfd& file = files[0];
         const std::int64_t until_us = camera_->now_us + patience_us;
@@ -235,6 +258,7 @@ public:
         }
     }
     std::ptrdiff_t map(int, std::int64_t offset, std::size_t length, std::uint8_t*& memory) {
+        camera_->enter_call();
         const auto index = static_cast<std::size_t>(offset / 16);
         const auto plane = static_cast<std::size_t>(offset % 16);
         if (index >= camera_->buffers.size() || plane >= camera_->buffers[index].planes.size())
@@ -243,7 +267,10 @@ public:
         memory = camera_->buffers[index].planes[plane].data();
         return 0;
     }
-    int unmap(std::uint8_t*, std::size_t) { return 0; }
+    int unmap(std::uint8_t*, std::size_t) {
+        camera_->enter_call();
+        return 0;
+    }
     std::int64_t monotonic_us() { return camera_->now_us; }
 
     // What a camera does not need.
@@ -415,6 +442,7 @@ private:
         if (camera_->buffers.empty()) return -EINVAL;
         camera_->streaming = true;
         camera_->frame = 0;
+        camera_->flagged.clear();
         camera_->next_frame_us = camera_->now_us + camera_->mode.interval_us;
         return 0;
     }

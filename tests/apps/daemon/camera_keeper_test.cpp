@@ -157,7 +157,7 @@ TEST(CameraKeeper, BreaksSilenceByAStartThenByOpening) {
     bench.run(1000000);
     EXPECT_EQ(bench.opens, 2);
     bench.run(20000000);
-    EXPECT_LE(bench.opens, 12);  // a second of silence and up to two of waiting each
+    EXPECT_LE(bench.opens, 9);  // a second of silence and two of waiting each
     EXPECT_GE(bench.opens, 7);
     EXPECT_EQ(bench.events, Words({"camera_silent"}));
     bench.device.silent = false;

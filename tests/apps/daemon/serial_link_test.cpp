@@ -78,6 +78,18 @@ TEST(SerialLink, OpensALostPortEverySecondAndTellsOnce) {
     EXPECT_EQ(bench.link.trouble(), Status::ok);
 }
 
+TEST(SerialLink, TellsOnceOfAPortThatIsGoneAndThenNotFound) {
+    Bench bench;
+    bench.link.turn(0);
+    bench.port.pulled = true;
+    int told = 0;
+    for (std::int64_t now = 0; now <= 5000000; now += 10000) {
+        bench.link.turn(now);
+        if (bench.link.take_event()) ++told;
+    }
+    EXPECT_EQ(told, 1);
+}
+
 TEST(SerialLink, NeverSendsTheRestOfARecordToAPortThatWasOpenedAnew) {
     Bench bench;
     bench.port.room = 3;

@@ -190,6 +190,28 @@ TEST(V4l2Camera, StampsOfTheFutureAgeFromZero) {
     }
 }
 
+TEST(V4l2Camera, LatestLendsFramesThatWereLongOnTheirWay) {
+    SimulatedCamera device;
+    device.stamp_ahead_us = -100000;  // as long as two intervals and a half
+    Camera camera{SimulatedVideo(device)};
+    ASSERT_EQ(begin(camera), Status::ok);
+    device.run_until(device.now_us + 400000);
+    Camera::Frame frame;
+    int lent = 0;
+    for (int k = 0; k < 20; ++k) {
+        // As who is woken by each frame.
+        device.run_until(device.now_us + 40000);
+        if (camera.latest(60000, 0, frame) == Status::ok) ++lent;
+    }
+    EXPECT_GE(lent, 18);
+    EXPECT_GT(device.now_us - frame.info().time_us, 60000);
+    // What has waited is passed over all the same.
+    device.run_until(device.now_us + 130000);
+    EXPECT_EQ(camera.latest(60000, 0, frame), Status::timeout);
+    device.run_until(device.now_us + 40000);
+    EXPECT_EQ(camera.latest(60000, 0, frame), Status::ok);
+}
+
 TEST(V4l2Camera, SaysThatNothingCame) {
     SimulatedCamera device;
     device.silent = true;

@@ -119,6 +119,8 @@ private:
     hal::FrameCounters counters_;
     hal::SequenceGaps gaps_;
     hal::FrameStamps stamps_;
+    /// When all that had come was taken last.
+    std::int64_t emptied_us_ = 0;
     Fault fault_;
     int file_ = -1;
     std::uint32_t type_ = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -223,7 +225,8 @@ Status V4l2Camera<System>::start(int buffers) {
         return status;
     }
     gaps_.restart();
-    stamps_.restart(system_.monotonic_us());
+    emptied_us_ = system_.monotonic_us();
+    stamps_.restart(emptied_us_);
     // A camera without a signal streams, and tells so with its frames.
     const Status signal = signal_.check(system_, fault_);
     if (signal == Status::ok || signal == Status::no_signal) return Status::ok;
@@ -329,7 +332,8 @@ Status V4l2Camera<System>::first(std::int64_t patience_us, Frame& frame, Wanted 
     }
 }
 
-/// The newest frame there is, or the next if that is too old.
+/// The newest frame there is, or the next if that is too old. One that was not there a moment ago is as new
+/// as any can be, however long it was on its way from the sensor.
 template <class System>
 Status V4l2Camera<System>::latest(std::int64_t max_age_us, std::int64_t patience_us, Frame& frame) {
     if (const Status s = begin(frame); s != Status::ok) return s;
@@ -347,7 +351,9 @@ Status V4l2Camera<System>::latest(std::int64_t max_age_us, std::int64_t patience
         }
         if (status != Status::timeout) return status;
         status = signal_.read(system_, fault_);
-        const bool fresh = system_.monotonic_us() - newest.info().time_us <= max_age_us;
+        const std::int64_t now_us = system_.monotonic_us();
+        const bool fresh = std::min(now_us - newest.info().time_us, now_us - emptied_us_) <= max_age_us;
+        emptied_us_ = now_us;
         if (status == Status::ok && !newest.empty() && fresh) {
             ++counters_.lent;
             frame = std::move(newest);
