@@ -52,9 +52,9 @@ enum class FramePolicy : std::uint8_t { latest, every, after_trigger };
 /// else that it is not as it must be. Never waits: what is to be tried later is tried in a later call.
 ///
 /// A broken stream is started again at once, and if that does not bring a frame, the camera is opened again.
-/// A lost camera is looked for at once, then after 0.1, 0.2, 0.5, 1 and every 2 s. A silent one is started
-/// again after the longer of 1 s and 5 intervals, then opened again, and if that does not help every 2 s: it
-/// is there, and does not come sooner for being opened more often.
+/// A lost camera is looked for at once, then after 25 and 75 ms, 0.2, 0.5, 1 and every 2 s. A silent one is
+/// started again after the longer of 1 s and 5 intervals, then opened again, and if that does not help every
+/// 2 s: it is there, and does not come sooner for being opened more often.
 template <class Camera, class Clock, class Opening>
 class CameraKeeper {
 public:
@@ -143,10 +143,10 @@ private:
 
     /// The schedule of tries: microseconds until the one after so many.
     static constexpr std::int64_t delay_us(int tries) {
-        constexpr std::int64_t delays[] = {0, 100000, 200000, 500000, 1000000, 2000000};
+        constexpr std::int64_t delays[] = {0, 25000, 75000, 200000, 500000, 1000000, 2000000};
         return delays[tries < last_try ? tries : last_try];
     }
-    static constexpr int last_try = 5;
+    static constexpr int last_try = 6;
 
     bool try_to_open(Frame& frame) {
         const std::int64_t now_us = clock_.microseconds();
