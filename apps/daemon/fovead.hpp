@@ -148,7 +148,7 @@ template <class Session, class Io>
 void end_session(Session& session, Io& io, int status) {
     session.daemon().stop();
     if (session.world().finish()) return;
-    io.complain("fovead: the disk of [failures] hangs: ended without it");
+    io.complain("fovead: the disk of [failures] hangs or is slow: ended without what it was to keep");
     ::_exit(status);
 }
 

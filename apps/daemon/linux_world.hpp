@@ -82,7 +82,9 @@ public:
     bool finish() {
         lines_.make_safe();
         camera_.close();
-        return failures_.stop(300000) != Status::timeout;
+        // Here and not at the end of the process, where the kernel would wait for a reader.
+        port_.close();
+        return failures_.stop(500000) != Status::timeout;
     }
 
     /// Opens what the settings name and lays out all memory. Empty if all is well, or what is not and what to

@@ -31,7 +31,7 @@ class ServiceRig(BoardShell):
 
     def __init__(self, package, texts, **options):
         """package: the .deb, which is at the person's home; texts: {path on the board: what stands there}."""
-        super().__init__(["sh", "-c", PREPARE], systemd=True, steady=True, packages=PACKAGES, seconds=240, **options)
+        super().__init__(["sh", "-c", PREPARE], systemd=True, packages=PACKAGES, seconds=240, **options)
         files = self.options.setdefault("files", {})
         files[f"{HOME}/{package.name}"] = package
         for number, (path, text) in enumerate(texts.items()):

@@ -234,7 +234,7 @@ def lets_calls_hang(board):
 
 @case
 def a_daemon_that_hangs_is_started_again_with_its_lines_safe():
-    with rig(cameras=1, serial=["socket"]) as board:
+    with rig(cameras=1, serial=["socket"], steady=True) as board:
         begin(board)
         same(board.shown("WatchdogUSec", "Restart", "TimeoutStopUSec"),
              {"WatchdogUSec": "10s", "Restart": "always", "TimeoutStopUSec": "5s"})

@@ -118,8 +118,8 @@ public:
     /// Ends the thread when it has done what it was given, or the job that it is at when the patience is
     /// over.
     ///
-    /// Errors  timeout if it is still at that job 10 ms later. The thread is in the hands of the kernel then:
-    ///         a program that must not wait for it ends by _exit()
+    /// Errors  timeout if it is still at that job 200 ms later. The thread is in the hands of the kernel
+    ///         then: a program that must not wait for it ends by _exit()
     Status stop(std::int64_t patience_us);
 
     bool running() const { return running_; }
@@ -203,7 +203,7 @@ Status BackgroundWriter<Work, System>::stop(std::int64_t patience_us) {
     finish();
     if (!ended(patience_us)) {
         abandoned_.store(true, std::memory_order_release);
-        if (!ended(10000)) return Status::timeout;
+        if (!ended(200000)) return Status::timeout;
     }
     static_cast<void>(::pthread_join(thread_, nullptr));
     static_cast<void>(::sem_destroy(&something_));
