@@ -58,16 +58,16 @@ public:
     using Port = linux_port::SerialPort<System>;
     using Pin = linux_port::OutputLine<System>;
     /// The opening stays with the world: who looks for a reason finds it there.
-    struct OpenCamera {
-        TheOpening* opening;
-        Status operator()(Camera& camera) const { return (*opening)(camera); }
+    template <class Opening>
+    struct OpenBy {
+        Opening* opening;
+        template <class Device>
+        Status operator()(Device& device) const {
+            return (*opening)(device);
+        }
     };
-    struct OpenPort {
-        SerialOpening<System>* opening;
-        Status operator()(Port& port) const { return (*opening)(port); }
-    };
-    using Keeper = CameraKeeper<Camera, Clock, OpenCamera>;
-    using Link = SerialLink<Port, OpenPort>;
+    using Keeper = CameraKeeper<Camera, Clock, OpenBy<TheOpening>>;
+    using Link = SerialLink<Port, OpenBy<SerialOpening<System>>>;
     using Lines = VerdictLines<Pin>;
 
     /// The jobs stay where they are, and may be others after take_settings().
@@ -165,11 +165,10 @@ public:
 
     // ---- What the program does ----
 
-    /// Takes settings of the same devices, and lays out the memory for the jobs anew. Not while a frame is
-    /// judged.
+    /// Takes settings of the same devices, between two frames: lays out the memory for the jobs anew.
     void take_settings(const Settings& settings) {
         settings_ = settings;
-        lines_.set_timing(line_timing());
+        lines_.set_timing(line_timing(settings_.lines));
         lay_out();
     }
 
@@ -177,7 +176,6 @@ public:
     /// or that moment is there.
     void wait(std::int64_t until_us, int signals);
     const TheOpening& opening() const { return opening_; }
-    const Camera& camera_port() const { return camera_; }
 
 private:
     static Span<std::uint8_t> span(std::vector<std::uint8_t>& memory) {
@@ -198,9 +196,6 @@ private:
         if (!opening_.size().empty()) return opening_.size();
         return {static_cast<int>(settings_.camera.width), static_cast<int>(settings_.camera.height)};
     }
-    LineTiming line_timing() const {
-        return {settings_.lines.mode, settings_.lines.pulse_ms * 1000, settings_.lines.error_is_not_ok};
-    }
 
     Settings settings_;
     const JobList& jobs_;
@@ -208,11 +203,11 @@ private:
     Clock clock_{system_};
     Camera camera_{system_};
     TheOpening opening_{settings_, system_};
-    Keeper keeper_{camera_, clock_, OpenCamera{&opening_}};
+    Keeper keeper_{camera_, clock_, {&opening_}};
     Port port_{system_};
     SerialOpening<System> port_opening_{settings_.serial, system_};
     std::vector<std::uint8_t> link_memory_ = std::vector<std::uint8_t>(65536);
-    Link link_{port_, OpenPort{&port_opening_}, span(link_memory_), !settings_.serial.device.empty()};
+    Link link_{port_, {&port_opening_}, span(link_memory_), !settings_.serial.device.empty()};
     Pin ready_{system_};
     Pin busy_{system_};
     Pin valid_{system_};
@@ -308,7 +303,7 @@ std::string LinuxWorld<TheOpening>::open_lines() {
     }
     const auto wired = [](Pin& pin) { return pin.is_open() ? &pin : nullptr; };
     lines_ = Lines({wired(ready_), wired(busy_), wired(valid_), wired(ok_), wired(not_ok_), wired(alarm_)},
-                   line_timing());
+                   line_timing(names));
     return "";
 }
 

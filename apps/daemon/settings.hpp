@@ -107,6 +107,11 @@ inline ImageQualityLimits quality_limits(const Settings::Quality& settings) {
     return limits;
 }
 
+/// How long an answer stands on its lines.
+inline LineTiming line_timing(const Settings::Lines& settings) {
+    return {settings.mode, settings.pulse_ms * 1000, settings.error_is_not_ok};
+}
+
 enum class SettingType : std::uint8_t { text, integer, boolean, choice };
 
 /// A value on its way from text to settings: a choice as its number in the list.
