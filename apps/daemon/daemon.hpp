@@ -79,11 +79,13 @@ public:
         options_ = options;
         has_last_ = false;
     }
-    /// Goes on counting where another ended.
-    void go_on_from(const Tally& tally) {
+    /// Goes on counting where another ended, whose last trigger had that number.
+    void go_on_from(const Tally& tally, std::uint64_t number) {
         tally_ = tally;
-        numbers_ = tally.triggers;
+        numbers_ = number;
     }
+    /// Of the last trigger; the statistics may have begun anew since the first.
+    std::uint64_t last_number() const { return numbers_; }
 
     /// One turn of the loop. The moment of the next at the latest; earlier when the camera, the serial line
     /// or the trigger's line has something.

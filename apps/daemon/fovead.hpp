@@ -159,15 +159,17 @@ int run_daemon(std::unique_ptr<DaemonSession<Opening>>& session, DaemonFiles& fi
                int signal_file, TakeSignals take_signals, const char* version) {
     const auto begin = [&](DaemonFiles by) {
         Tally tally;
+        std::uint64_t number = 0;
         if (session != nullptr) {
             by.job = session->job_among(by);
             // Devices have one owner: the old session ends before the new one begins.
             end_session(*session, io, daemon_io);
             tally = session->daemon().tally();
+            number = session->daemon().last_number();
         }
         session.reset();
         session = std::make_unique<DaemonSession<Opening>>(by, version, system);
-        session->daemon().go_on_from(tally);
+        session->daemon().go_on_from(tally, number);
         return session->open();
     };
     if (const std::string problem = begin(files); !problem.empty()) {

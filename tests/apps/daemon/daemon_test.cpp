@@ -185,6 +185,7 @@ TEST(Daemon, ObeysItsCommands) {
     EXPECT_EQ(ask("LAST?").substr(0, 43), "OK {\"v\":1,\"ev\":\"result\",\"seq\":1,\"t_mono_us\"");
     EXPECT_EQ(ask("STAT RESET"), "OK\r\n");
     EXPECT_EQ(ask("STAT?"), "OK triggers 0 ok 0 ng 0 error 0 missed 0 us 0 0 0\r\n");
+    EXPECT_EQ(bench.daemon.last_number(), 2u) << "numbers go on";
     EXPECT_EQ(ask("TEACH cap"), "OK\r\n");
     run(world, bench.daemon, 100000);
     EXPECT_EQ(world.samples, Words({"cap"}));
