@@ -54,9 +54,10 @@ ROWS = [
     ("F11", "the driver gives another size or stride, or fills a part of the frame", "simulated; vivid after a larger size",
      "rows are read by their stride; what was not asked for is refused",
      "V4l2Camera.ReadsRowsWithPadding V4l2Camera.RefusesAFormatThatIsNotTheOneAskedFor "
-     "V4l2Camera.LetsTheDriverFillTheWholeFrame"),
+     "V4l2Camera.LetsTheDriverFillTheWholeFrame four_processors_judge_a_multi_planar_camera_whose_size_changes"),
     ("F12", "a multi-planar driver", "vivid with multiplanar=2", "the same bytes",
-     "V4l2Camera.ReadsMultiPlanarDrivers pictures_through_a_multi_planar_driver"),
+     "V4l2Camera.ReadsMultiPlanarDrivers pictures_through_a_multi_planar_driver "
+     "four_processors_judge_a_multi_planar_camera_whose_size_changes"),
     ("F13", "the serial port is pulled", "an FTDI adapter of the emulated board, a pty",
      "opened again by its identity; records whole, the newest kept; no verdict waits",
      "SerialLink.OpensALostPortEverySecondAndTellsOnce DaemonWaits.WithoutSpinningForWhateverIsAway "
@@ -125,7 +126,7 @@ INVARIANTS = [
 # What fovead_test.py has checked in each row; it fails where this is not so.
 ON_BOARD = {
     **dict.fromkeys(["F1", "F6", "F13", "F14", "F18"], "I1 I2 I3 I4 I5 I6"),
-    **dict.fromkeys(["F2", "F3", "F4", "F5", "F7", "F8", "F9", "F10", "F15", "F19", "F21", "F22", "F23", "F27", "F29", "F31"],
+    **dict.fromkeys(["F2", "F3", "F4", "F5", "F7", "F8", "F9", "F10", "F11", "F12", "F15", "F19", "F21", "F22", "F23", "F27", "F29", "F31"],
                     "I1 I2 I3 I4 I6"),
     **dict.fromkeys(["F16", "F30"], "I1 I3 I4 I6"),  # the parts are not judged there
 }

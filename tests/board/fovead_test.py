@@ -11,7 +11,7 @@ import time
 
 from cases import case, holds, run_cases, same
 from daemon_rig import (ALARM, BUSY, BY_COMMAND, BY_LINE, CHECKED, LINES, NG, OK, PATTERN_RECIPE, READY, SERIAL, TRIGGER,
-                        USB, VALID, VIVID, DaemonRig)
+                        USB, VALID, VIVID, WIDTH, HEIGHT, DaemonRig)
 from faults_page import ON_BOARD
 
 PROGRAMS = sys.argv[1]
@@ -169,6 +169,9 @@ def signals_at_any_moment_do_no_harm():
     with rig(VIVID + BY_LINE + LINES, cameras=1, loop=True) as board:
         board.show("good")
         board.start()
+        # What reading settings anew takes of the heap is taken with the first time.
+        board.run("kill -HUP $daemon")
+        board.event("reload")
         judged(board.trigger(), "OK")
         board.provoke("F22")
         # F22: 1000 signals without a pause; SIGHUPs that come together are one.
@@ -357,6 +360,34 @@ def every_fault_of_a_webcam_through_the_daemon():
 
 
 @case
+def four_processors_judge_a_multi_planar_camera_whose_size_changes():
+    with rig(VIVID.replace(f"width = {WIDTH}\nheight = {HEIGHT}", "width = 1280\nheight = 720") + BY_LINE + LINES,
+             PATTERN_RECIPE, cameras=1, vivid="multiplanar=2", cpus=4) as board:
+        set_control(board, "Test Pattern", 8)
+        start = board.start()
+        same((start["threads"], start["width"]), (4, 1280))
+        same(board.pins.wait_for(READY, 1), True)
+        board.provoke("F12")
+        words = board.trigger()
+        same((words["verdict"], words["parts"] > 0), ("OK", True))
+        # vivid then fills as much of the smaller frame as it is told, and it was told the larger one.
+        board.provoke("F11")
+        board.run("sed -i 's/^width = .*/width = 640/; s/^height = .*/height = 360/' /test/fovead.toml; kill -HUP $daemon")
+        same(board.event("start")["width"], 640)
+        board.event("reload")
+        same(board.pins.wait_for(READY, 1), True)
+        smaller = board.trigger()
+        same((smaller["verdict"], smaller["parts"] > 0), ("OK", True))
+        # With one thread the same parts are found.
+        board.run("echo '[processor]\nthreads = 1' >> /test/fovead.toml; kill -HUP $daemon")
+        same(board.event("start")["threads"], 1)
+        board.event("reload")
+        same(board.pins.wait_for(READY, 1), True)
+        same(board.trigger()["verdict"], "OK")
+        same(board.stop()[0], 0)
+
+
+@case
 def nothing_that_is_wrong_with_its_outputs_moves_a_verdict():
     settings = (VIVID + BY_LINE + LINES + SERIAL + '[failures]\nfolder = "/run/disk/kept"\npictures = 3\n')
     with rig(settings, cameras=1, loop=True, serial=["socket"]) as board:
@@ -448,7 +479,9 @@ def no_file_left_to_open():
             judged(board.trigger(), "OK")
         board.heard(3)
         board.statistics()
-        board.run("kill -HUP $daemon")
+        # A setting of the camera, so that all is opened anew.
+        board.run("sed -i 's/^.camera./&\\nrate_per_s = 9/' /test/fovead.toml; kill -HUP $daemon")
+        board.event("start")
         board.event("reload")
         same(board.pins.wait_for(READY, 1), True)
         judged(board.trigger(), "OK")

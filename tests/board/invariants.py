@@ -52,6 +52,16 @@ class Record:
             found[-1].append(event)
         return found
 
+    def lives(self):
+        """Events of each process: numbers and statistics go on where it reads its settings anew."""
+        found = []
+        for session in self.sessions():
+            if found and len(session) > 1 and session[1]["ev"] in ("reload", "reload_failed"):
+                found[-1] += session
+            else:
+                found.append(session)
+        return found
+
 
 def check(record):
     """The invariants that applied; an AssertionError for the first that does not hold."""
@@ -75,16 +85,16 @@ def answers(events):
 
 
 def every_trigger_has_one_answer(record):
-    sessions = [answers(session) for session in record.sessions()]
-    if not any(sessions):
+    lives = [answers(session) for session in record.lives()]
+    if not any(lives):
         return None
-    for seen in sessions:
+    for seen in lives:
         numbers = [number for number, _ in seen]
         if numbers != list(range(1, len(numbers) + 1)):
             return f"triggers are numbered {numbers}"
         if strange := [verdict for _, verdict in seen if verdict not in COUNTS]:
             return f"answers {strange}"
-    total = sum(map(len, sessions))
+    total = sum(map(len, lives))
     if record.edges is not None and record.edges != total:
         return f"{record.edges} edges, {total} answers"
     for text, events_before in record.asked:
@@ -93,16 +103,16 @@ def every_trigger_has_one_answer(record):
             return f"does not add up: {text}"
         last = Record()
         last.said = record.said[:events_before]
-        seen = [verdict for _, verdict in answers(last.sessions()[-1])]
+        seen = [verdict for _, verdict in answers(last.lives()[-1])]
         counted = {word: seen.count(word.upper()) for word in ("ok", "ng", "error", "missed")}
         if counted != {word: told[word] for word in counted}:
             return f"{counted} were said, and to STAT? {told}"
     # A record may have been dropped; none may say what the others do not.
-    known = {answer for session in sessions for answer in session}
+    known = {answer for life in lives for answer in life}
     sent = [(int(number), verdict) for number, verdict in (text.split(";")[:2] for text in record.records)]
     if wrong := [pair for pair in sent if pair not in known]:
         return f"on the serial line alone: {wrong}"
-    if len(sessions) == 1 and sorted(set(sent)) != sent:
+    if len(lives) == 1 and sorted(set(sent)) != sent:
         return f"records are not in order: {sent}"
     return ""
 

@@ -780,6 +780,9 @@ def board_invariants(folder):
     lost, back = {"ev": "camera_lost", "reason": "No such device"}, {"ev": "camera_back"}
     yield "a run without a fault", checked(), None
     yield "an answer twice", checked(said=[*said, result(2, 12, 3000000)]), "I1: triggers are numbered [1, 2, 2]"
+    anew = [said[0], {"ev": "reload"}]
+    yield "numbers that go on", checked(said=[*said, *anew, result(3, 2, 3000000)], edges=3), None
+    yield "numbers that begin anew", checked(said=[*said, *anew, result(1, 2, 3000000)], edges=3), "I1: triggers are numbered [1, 2, 1]"
     yield "an edge without an answer", checked(edges=3), "I1: 3 edges, 2 answers"
     yield "other statistics", checked(asked=[["triggers 2 ok 2 ng 0 error 0 missed 0", 3]]), "I1: {'ok': 1"
     yield "another verdict on the serial line", checked(records=["1;NG;1"]), "I1: on the serial line alone"
