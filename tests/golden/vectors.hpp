@@ -135,7 +135,7 @@ inline constexpr Vector vectors[] = {
     {"draw/utf8", draw_utf8},
     {"decision/compiled_recipe", decision_compiled_recipe},
     {"decision/gauge", decision_gauge},
-    {"decision/gauge by workers", decision_gauge_by_workers},
+    {"decision/gauge_by_workers", decision_gauge_by_workers},
     {"decision/locate", decision_locate},
     {"decision/measure_feature", decision_measure_feature},
     {"decision/part_frame", decision_part_frame},
