@@ -72,22 +72,25 @@ struct ReplayRig {
     Replay replay{test::TimedKernel(time)};
 };
 
-template <class Rig>
-class FrameSources : public testing::Test {};
-using Rigs = testing::Types<CameraRig, ReplayRig>;
-TYPED_TEST_SUITE(FrameSources, Rigs);
+TEST(FrameSources, LendFramesInTheirOrder) {
+    CameraRig camera;
+    test::expect_frames_in_their_order(camera);
+    ReplayRig replay;
+    test::expect_frames_in_their_order(replay);
+}
 
-TYPED_TEST(FrameSources, LendFramesInTheirOrder) {
-    TypeParam rig;
-    test::expect_frames_in_their_order(rig);
+TEST(FrameSources, LendTheNewestOfThoseThatWait) {
+    CameraRig camera;
+    test::expect_the_newest_of_those_that_wait(camera);
+    ReplayRig replay;
+    test::expect_the_newest_of_those_that_wait(replay);
 }
-TYPED_TEST(FrameSources, LendTheNewestOfThoseThatWait) {
-    TypeParam rig;
-    test::expect_the_newest_of_those_that_wait(rig);
-}
-TYPED_TEST(FrameSources, LendAFrameFromBehindAMoment) {
-    TypeParam rig;
-    test::expect_a_frame_from_behind_a_moment(rig);
+
+TEST(FrameSources, LendAFrameFromBehindAMoment) {
+    CameraRig camera;
+    test::expect_a_frame_from_behind_a_moment(camera);
+    ReplayRig replay;
+    test::expect_a_frame_from_behind_a_moment(replay);
 }
 
 /// The sums of the rows of the next frame, line by line.
