@@ -15,6 +15,9 @@ namespace fovea::apps {
 inline Decimal decimal_of(FinePixel value) {
     return {round_shift(std::int64_t{value.raw()} * 1000000, FinePixel::fraction_bits)};
 }
+inline Decimal decimal_of(SubPixel value) {
+    return {round_shift(std::int64_t{value.raw()} * 1000000, SubPixel::fraction_bits)};
+}
 inline Decimal decimal_of(FineAngle angle) { return {angle.microdegrees()}; }
 
 }  // namespace fovea::apps

@@ -11,6 +11,7 @@
 #include <gauge/compile_command.hpp>
 #include <gauge/gauge_command.hpp>
 #include <gauge/teach_command.hpp>
+#include <make_code/make_code_command.hpp>
 #include <make_part/make_part_command.hpp>
 #include <op/op_command.hpp>
 #include <op/ops_command.hpp>
@@ -18,6 +19,7 @@
 #include <op/sheet_command.hpp>
 #include <probe/doctor_command.hpp>
 #include <probe/probe_command.hpp>
+#include <read/read_command.hpp>
 #include <tool/manual.hpp>
 
 #ifndef FOVEA_VERSION
@@ -36,11 +38,18 @@ struct Entry {
 
 template <class Io>
 std::vector<Entry<Io>> commands() {
-    return {{gauge_help(), gauge_command<Io>},     {teach_help(), teach_command<Io>},
-            {compile_help(), compile_command<Io>}, {make_part_help(), make_part_command<Io>},
-            {op_help(), op_command<Io>},           {sheet_help(), sheet_command<Io>},
-            {ops_help(), ops_command<Io>},         {info_help(), info_command<Io>},
-            {compare_help(), compare_command<Io>}, {probe_help(), probe_command<Io>},
+    return {{gauge_help(), gauge_command<Io>},
+            {teach_help(), teach_command<Io>},
+            {compile_help(), compile_command<Io>},
+            {read_help(), read_command<Io>},
+            {make_code_help(), make_code_command<Io>},
+            {make_part_help(), make_part_command<Io>},
+            {op_help(), op_command<Io>},
+            {sheet_help(), sheet_command<Io>},
+            {ops_help(), ops_command<Io>},
+            {info_help(), info_command<Io>},
+            {compare_help(), compare_command<Io>},
+            {probe_help(), probe_command<Io>},
             {doctor_help(), doctor_command<Io>}};
 }
 

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//
+// All codes of an image, bars and matrices. Book ch. 5.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/list.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/code/code.hpp>
+#include <fovea/code/read_bars.hpp>
+#include <fovea/code/read_data_matrix.hpp>
+#include <fovea/code/read_qr.hpp>
+#include <fovea/code/symbology.hpp>
+#include <fovea/image/image_view.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+struct ReadCodesOptions {
+    /// What is looked for. Fewer are faster, and leave less to mistake; rules.symbologies does not count.
+    SymbologySet symbologies = SymbologySet::all();
+    /// Ends the search, 1 or more.
+    int most_codes = 32;
+    /// True: what is harder to see is looked for where nothing was read at first sight, which takes several times as long.
+    bool thorough = true;
+    /// How bar codes are understood.
+    BarRules rules;
+};
+
+/// Scratch bytes that read_codes() needs.
+constexpr std::int64_t read_codes_scratch(Size size) {
+    return maximum(read_bars_scratch(size), maximum(read_qr_scratch(size), read_data_matrix_scratch(size)));
+}
+
+/// Reads the codes of an image: matrices first, then bars; if there are none, again with all means.
+///
+/// Shapes   src 1x1 or larger
+/// Time     bounded, as read_qr(), read_data_matrix() and read_bars() are
+/// Scratch  read_codes_scratch(src.size()) bytes, undefined afterwards
+/// Errors   empty_image; bad_argument for no symbology or no code to look for; scratch_too_small; not_found; undecided where
+///          something was read on which lines did not agree; buffer_too_small and capacity_exceeded with the codes that had
+///          room. Text and codes are appended to
+/// Source   book ch. 5
+inline Status read_codes(ImageView<const Gray8> src, const ReadCodesOptions& options,
+                         Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+/// One look at an image for everything that is asked for.
+inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions& options, bool thorough,
+                             Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes) {
+    const int before = codes.size();
+    const auto left = [&] { return options.most_codes - (codes.size() - before); };
+    const auto failed = [](Status status) {
+        return status != Status::ok && status != Status::not_found && status != Status::undecided;
+    };
+    Status doubt = Status::not_found;
+    if (options.symbologies.contains(Symbology::qr)) {
+        QrReadOptions qr;
+        qr.effort = thorough ? QrReadOptions::Effort::thorough : QrReadOptions::Effort::quick;
+        qr.max_codes = left();
+        if (Status s = read_qr(src, qr, scratch, text, codes); failed(s)) return s;
+    }
+    if (options.symbologies.contains(Symbology::data_matrix) && left() > 0) {
+        ReadDataMatrixOptions data_matrix;
+        data_matrix.most_codes = left();
+        if (Status s = read_data_matrix(src, data_matrix, scratch, text, codes); failed(s)) return s;
+    }
+    const SymbologySet bars = options.symbologies & bar_symbologies();
+    if (!bars.empty() && left() > 0) {
+        BarOptions rules;
+        rules.rules = options.rules;
+        rules.rules.symbologies = bars;
+        rules.enough = left();
+        rules.effort = thorough ? 2 : 1;
+        doubt = read_bars(src, rules, scratch, text, codes);
+        if (failed(doubt)) return doubt;
+    }
+    return codes.size() > before ? Status::ok : doubt;
+}
+
+}  // namespace detail
+
+inline Status read_codes(ImageView<const Gray8> src, const ReadCodesOptions& options,
+                         Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes) {
+    if (src.empty()) return Status::empty_image;
+    if (options.symbologies.empty() || options.most_codes < 1) return Status::bad_argument;
+    if (scratch.size() < read_codes_scratch(src.size())) return Status::scratch_too_small;
+    const Status first = detail::look_for_codes(src, options, false, scratch, text, codes);
+    if (!options.thorough || (first != Status::not_found && first != Status::undecided)) return first;
+    return detail::look_for_codes(src, options, true, scratch, text, codes);
+}
+
+}  // namespace fovea
