@@ -17,6 +17,7 @@ struct Seen {
     BlurLetters letters;
     LetterCosts costs;
     DigitPaths paths;
+    LetterPaths letter_paths;
     std::int32_t darkness[most_blur_samples];
 };
 Seen& seen() {
@@ -58,8 +59,11 @@ TEST(CheapestDigits, AreThoseThatAreSeenAndCostNothing) {
         EXPECT_EQ(text(ean_13_plan, found), digits);
         EXPECT_EQ(found.cost, 0);
         EXPECT_GT(found.second, 0);
+        EXPECT_EQ(cheapest_letters(ean_13_plan, seen().letters, seen().costs, seen().letter_paths), 0);
         std::uint8_t row[most_blur_letters];
-        EXPECT_EQ(cheapest_letters(ean_13_plan, seen().letters, seen().costs, row), 0);
+        trace_letters(ean_13_plan, seen().letters, seen().letter_paths, row);
+        for (int place = 0; place < 12; ++place)
+            EXPECT_EQ(row[place], letter_of(ean_13_plan, found.digits, place));
     }
 }
 
@@ -101,8 +105,8 @@ TEST(CheapestLetters, NeverCostMoreThanTheCheapestDigits) {
     for (int i = 0; i < 60; ++i) {
         look(ean_13_plan, test::with_check_digit(test::random_digits(random, 12)), Ratio::from_ratio(20, 10),
              900, static_cast<unsigned>(random()));
-        std::uint8_t row[most_blur_letters];
-        const std::int32_t least = cheapest_letters(ean_13_plan, seen().letters, seen().costs, row);
+        const std::int32_t least =
+            cheapest_letters(ean_13_plan, seen().letters, seen().costs, seen().letter_paths);
         const CheapestDigits found = cheapest_digits(ean_13_plan, seen().letters, seen().costs, seen().paths);
         EXPECT_LE(least, found.cost);
         EXPECT_LT(found.cost, found.second);

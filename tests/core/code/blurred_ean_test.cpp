@@ -20,7 +20,7 @@ BlurredEanScratch& scratch() {
 Span<const std::uint16_t> view(const std::vector<std::uint16_t>& profile) {
     return {profile.data(), static_cast<std::ptrdiff_t>(profile.size())};
 }
-BarSpan span_of(const std::vector<std::uint16_t>& profile, const test::BarCamera& camera) {
+ProfileSpan span_of(const std::vector<std::uint16_t>& profile, const test::BarCamera& camera) {
     const int before = static_cast<int>(camera.margin - camera.blur) - 1;
     return {before, static_cast<int>(profile.size()) - 1 - before};
 }

@@ -117,8 +117,8 @@ struct BlurLetters {
     ModuleResponse module;
     std::int32_t response[letter_count][letter_response_size];  ///< at most full_darkness
     std::int32_t energy[letter_count];                          ///< |T|^2
-    std::int32_t beside[letter_count][letter_count];            ///< 2 T T' of a letter and the next
-    std::int32_t across[first_c][10];  ///< the same across the centre; the right one is of C
+    std::int32_t beside[letter_count][letter_count];  ///< 2 T T' of a letter and the next of its side
+    std::int32_t across[first_c][10];                 ///< the same across the centre; the right one is of C
 };
 
 inline std::int32_t common_darkness(const std::int32_t* left, const std::int32_t* right, int distance) {
@@ -140,7 +140,8 @@ inline void see_letters(Ratio blur, BlurLetters& letters) {
         letters.energy[letter] = common_darkness(response, response, 0) / 2;
     }
     for (int left = 0; left < letter_count; ++left) {
-        for (int right = 0; right < letter_count; ++right) {
+        const int first = left < first_c ? 0 : first_c;
+        for (int right = first; right < (left < first_c ? first_c : letter_count); ++right) {
             letters.beside[left][right] =
                 common_darkness(letters.response[left], letters.response[right], 7 * blur_samples);
         }

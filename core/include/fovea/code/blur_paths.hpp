@@ -46,37 +46,50 @@ constexpr std::int32_t pair_cost(const BlurPlan& plan, const BlurLetters& letter
     return letters.beside[alphabet + left][alphabet + right];
 }
 
-/// The cheapest row of letters, whatever parity and check digit say: what a place in the image, a size and a blur are
-/// compared by. Never above the cost of the cheapest digits.
+/// What it costs to come to each letter at each place, by the cheapest letters before it.
+struct LetterPaths {
+    std::int32_t to[most_blur_letters][first_c];
+};
+
+/// The cost of the cheapest row of letters, whatever parity and check digit say: what a place in the image, a size and a
+/// blur are compared by. Never above the cost of the cheapest digits.
 inline std::int32_t cheapest_letters(const BlurPlan& plan, const BlurLetters& letters,
-                                     const LetterCosts& costs, std::uint8_t (&row)[most_blur_letters]) {
-    std::int32_t so_far[first_c];
-    std::int32_t with_next[first_c];
-    std::uint8_t before[most_blur_letters][first_c];
-    for (int i = 0; i < plan.alphabet_size(0); ++i) so_far[i] = costs.of[0][i];
+                                     const LetterCosts& costs, LetterPaths& paths) {
+    for (int i = 0; i < plan.alphabet_size(0); ++i) paths.to[0][i] = costs.of[0][i];
     for (int place = 1; place < plan.letters; ++place) {
-        for (int right = 0; right < plan.alphabet_size(place); ++right) {
-            std::int32_t best = std::numeric_limits<std::int32_t>::max();
-            for (int left = 0; left < plan.alphabet_size(place - 1); ++left) {
-                const std::int32_t cost = so_far[left] + pair_cost(plan, letters, place - 1, left, right);
-                if (cost >= best) continue;
-                best = cost;
-                before[place][right] = static_cast<std::uint8_t>(left);
-            }
-            with_next[right] = best + costs.of[place][right];
+        const int count = plan.alphabet_size(place);
+        const int first = plan.alphabet(place);
+        std::int32_t* to = paths.to[place];
+        for (int right = 0; right < count; ++right) to[right] = std::numeric_limits<std::int32_t>::max();
+        for (int left = 0; left < plan.alphabet_size(place - 1); ++left) {
+            const std::int32_t before = paths.to[place - 1][left];
+            const std::int32_t* both = place == plan.left
+                                           ? letters.across[left]
+                                           : letters.beside[plan.alphabet(place - 1) + left] + first;
+            for (int right = 0; right < count; ++right) to[right] = minimum(to[right], before + both[right]);
         }
-        for (int right = 0; right < plan.alphabet_size(place); ++right) so_far[right] = with_next[right];
+        for (int right = 0; right < count; ++right) to[right] += costs.of[place][right];
     }
-    int last = 0;
-    for (int i = 1; i < plan.alphabet_size(plan.letters - 1); ++i) {
-        if (so_far[i] < so_far[last]) last = i;
-    }
-    const std::int32_t cost = costs.nothing + so_far[last];
+    const std::int32_t* last = paths.to[plan.letters - 1];
+    std::int32_t best = last[0];
+    for (int i = 1; i < plan.alphabet_size(plan.letters - 1); ++i) best = minimum(best, last[i]);
+    return costs.nothing + best;
+}
+/// The row of letters that cheapest_letters() found.
+inline void trace_letters(const BlurPlan& plan, const BlurLetters& letters, const LetterPaths& paths,
+                          std::uint8_t (&row)[most_blur_letters]) {
+    int right = -1;
     for (int place = plan.letters - 1; place >= 0; --place) {
-        row[place] = static_cast<std::uint8_t>(plan.alphabet(place) + last);
-        if (place > 0) last = before[place][last];
+        const auto cost = [&](int left) {
+            return paths.to[place][left] + (right < 0 ? 0 : pair_cost(plan, letters, place, left, right));
+        };
+        int best = 0;
+        for (int left = 1; left < plan.alphabet_size(place); ++left) {
+            if (cost(left) < cost(best)) best = left;
+        }
+        row[place] = static_cast<std::uint8_t>(plan.alphabet(place) + best);
+        right = best;
     }
-    return cost;
 }
 
 /// Which of the six left letters are of set B, the first in bit 5, for each first digit. ISO/IEC 15420, table 2.

@@ -23,7 +23,7 @@ namespace fovea {
 // ---- Interface --------------------------------------------------------------------
 
 /// A stretch of a profile with bars between two light margins.
-struct BarSpan {
+struct ProfileSpan {
     int left = 0;   ///< the last place that is surely of the left margin
     int right = 0;  ///< the first one of the right margin
 };
@@ -32,6 +32,7 @@ struct BarSpan {
 struct BlurredEanScratch {
     detail::BlurLetters letters;
     detail::LetterCosts costs;
+    detail::LetterPaths letter_paths;
     detail::DigitPaths paths;
     std::int32_t levels[detail::most_blur_samples];
     std::int32_t darkness[detail::most_blur_samples];
@@ -64,7 +65,7 @@ struct BlurredEan {
 /// Errors    empty_image; bad_argument for a profile or span outside its bounds or another symbology than EAN-13 and EAN-8;
 ///           not_found where bars are below 1 px or above 12 px a module, have no contrast, or are no EAN at first sight
 /// Source    book ch. 5; ISO/IEC 15420, 4.2, 4.3, annex A
-inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, BarSpan span,
+inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, ProfileSpan span,
                                            Symbology symbology, BlurredEanScratch& scratch);
 
 // ---- Implementation ---------------------------------------------------------------
@@ -90,26 +91,31 @@ public:
     BlurredEanReader(Span<const std::uint16_t> profile, const BlurPlan& plan, BlurredEanScratch& scratch)
         : profile_(profile), plan_(plan), scratch_(scratch) {}
 
-    Status read(BarSpan span, bool reversed, BlurredEan& best) {
+    Status read(ProfileSpan span, BlurredEan& best) {
         BlurLight light;
         if (!estimate_light(span, light)) return Status::not_found;
-        BlurTrial trials[2];
+        BlurTrial trials[kept_trials];
         int count = 0;
-        for (const std::int32_t blur : first_blurs) {
-            BlurTrial trial;
-            if (!begin(span, reversed, light, Ratio::from_raw(blur), trial)) continue;
-            descend(trial);
-            keep_better(trial, trials, count);
+        for (const std::int32_t raw : first_blurs) {
+            const Ratio blur = Ratio::from_raw(raw);
+            see_letters(blur, scratch_.letters);
+            for (const bool reversed : {false, true}) look(span, reversed, light, blur, trials, count);
         }
-        Status status = Status::not_found;
+        BlurTrial* closest = nullptr;
         for (int i = 0; i < count; ++i) {
-            if (mean_square(plan_, trials[i].cost) > worth_reading) break;
-            if (finish(trials[i], best, status != Status::ok)) status = Status::ok;
+            if (mean_square(plan_, trials[i].cost) > worth_a_descent) continue;
+            see_letters(blur_in_modules(plan_, trials[i].scene), scratch_.letters);
+            descend(trials[i]);
+            if (closest == nullptr || trials[i].cost < closest->cost) closest = &trials[i];
         }
-        return status;
+        if (closest == nullptr || mean_square(plan_, closest->cost) > worth_reading) return Status::not_found;
+        finish(*closest, best);
+        return Status::ok;
     }
 
 private:
+    /// Guesses that are followed.
+    static constexpr int kept_trials = 3;
     /// Half widths of blur in modules, Ratio: each is near enough to the next for the descent.
     static constexpr std::int32_t first_blurs[6] = {Ratio::one * 6 / 10,  Ratio::one,
                                                     Ratio::one * 15 / 10, Ratio::one * 2,
@@ -119,7 +125,7 @@ private:
     static constexpr std::int32_t first_bend = Ratio::one / 50;
 
     /// White at both ends; contrast from the mean, for half of all modules are dark, more or less.
-    bool estimate_light(BarSpan span, BlurLight& light) const {
+    bool estimate_light(ProfileSpan span, BlurLight& light) const {
         const std::int32_t left = profile_[span.left - 1];
         const std::int32_t right = profile_[span.right + 1];
         std::int64_t sum = 0;
@@ -130,29 +136,30 @@ private:
         light.white[1] = right + (left - right) / 4;
         return light.dark[0] >= least_blur_contrast;
     }
-    /// The first guess at a blur: the ends where the outermost bar has the darkness that it would have there.
-    bool begin(BarSpan span, bool reversed, const BlurLight& light, Ratio blur, BlurTrial& trial) {
-        see_letters(blur, scratch_.letters);
+    /// The first guesses at a blur: the ends where the outermost bar has the darkness that it would have there, in straight
+    /// view and from both sides.
+    void look(ProfileSpan span, bool reversed, const BlurLight& light, Ratio blur,
+              BlurTrial (&trials)[kept_trials], int& count) {
         const std::int32_t edge = guard_edge(scratch_.letters.module);
         const std::int32_t left =
             falls_to(profile_, span.left - 2, 1, profile_[span.left - 1] - edge_level(light.dark[0], edge));
         const std::int32_t right = falls_to(profile_, span.right + 2, -1,
                                             profile_[span.right + 1] - edge_level(light.dark[1], edge));
         const std::int32_t length = right - left;
-        if (left < 0 || right < 0 || length < plan_.modules * FinePixel::one) return false;
-        if (length > 12 * plan_.modules * std::int64_t{FinePixel::one}) return false;
+        if (left < 0 || right < 0 || length < plan_.modules * FinePixel::one) return;
+        if (length > 12 * plan_.modules * std::int64_t{FinePixel::one}) return;
+        BlurTrial trial;
         trial.scene = {reversed ? right : left, reversed ? left : right, 0, 0, light};
         if (reversed) trial.scene.light = {{light.white[1], light.white[0]}, {light.dark[1], light.dark[0]}};
         trial.scene.blur = static_cast<std::int32_t>(std::int64_t{blur.raw()} * length /
                                                      (plan_.modules * std::int64_t{Ratio::one}));
-        evaluate(trial);
-        for (const int side : {-1, 1}) {
-            BlurTrial bent = trial;
-            bent.scene.bend = side * first_bend;
-            evaluate(bent);
-            if (bent.cost < trial.cost) trial = bent;
+        BlurTrial best = trial;
+        for (const int side : {0, -1, 1}) {
+            trial.scene.bend = side * first_bend;
+            evaluate(trial);
+            if (side == 0 || trial.cost < best.cost) best = trial;
         }
-        return mean_square(plan_, trial.cost) <= worth_a_descent;
+        keep_better(best, trials, count);
     }
     static std::int32_t edge_level(std::int32_t dark, std::int32_t edge) {
         return static_cast<std::int32_t>(std::int64_t{dark} * edge / full_darkness);
@@ -164,7 +171,7 @@ private:
         darkness_of(plan_, scratch_.levels, trial.scene.light, scratch_.darkness);
         take_guards(plan_, scratch_.letters.module, scratch_.darkness);
         cost_letters(plan_, scratch_.letters, scratch_.darkness, scratch_.costs);
-        trial.cost = cheapest_letters(plan_, scratch_.letters, scratch_.costs, trial.row);
+        trial.cost = cheapest_letters(plan_, scratch_.letters, scratch_.costs, scratch_.letter_paths);
     }
     /// Both ends are moved by half a module, a quarter and an eighth, whatever makes letters fit; then the light to these.
     void descend(BlurTrial& trial) {
@@ -174,6 +181,8 @@ private:
                 if (!move_ends(trial, step)) break;
             }
         }
+        evaluate(trial);
+        trace_letters(plan_, scratch_.letters, scratch_.letter_paths, trial.row);
         BlurTrial lit = trial;
         sample_profile(plan_, profile_, trial.scene, scratch_.levels);
         darkness_of_letters(plan_, scratch_.letters.module, trial.row, scratch_.darkness);
@@ -195,18 +204,18 @@ private:
         }
         return trial.cost < from.cost;
     }
-    static void keep_better(const BlurTrial& trial, BlurTrial (&trials)[2], int& count) {
-        if (count == 2 && trial.cost >= trials[1].cost) return;
-        if (count < 2) ++count;
-        trials[count - 1] = trial;
-        if (count == 2 && trials[1].cost < trials[0].cost) {
-            trials[1] = trials[0];
-            trials[0] = trial;
-        }
+    /// Keeps the cheapest, these in order.
+    static void keep_better(const BlurTrial& trial, BlurTrial (&trials)[kept_trials], int& count) {
+        int at = count;
+        while (at > 0 && trial.cost < trials[at - 1].cost) --at;
+        if (at == kept_trials) return;
+        count = minimum(count + 1, kept_trials);
+        for (int i = count - 1; i > at; --i) trials[i] = trials[i - 1];
+        trials[at] = trial;
     }
 
     /// Digits and scene in turn, each by the other, until nothing gets better.
-    bool finish(BlurTrial& trial, BlurredEan& best, bool first) {
+    void finish(BlurTrial& trial, BlurredEan& best) {
         std::int64_t last = std::numeric_limits<std::int64_t>::max();
         CheapestDigits found = digits_of(trial);
         for (int turn = 0; turn < 4; ++turn) {
@@ -216,10 +225,7 @@ private:
             last = unexplained;
             found = digits_of(trial);
         }
-        const std::int32_t share = residual_of(found.cost);
-        if (!first && share >= best.residual.raw()) return false;
         tell(trial, found, best);
-        return true;
     }
     CheapestDigits digits_of(BlurTrial& trial) {
         see_letters(blur_in_modules(plan_, trial.scene), scratch_.letters);
@@ -255,7 +261,7 @@ private:
 
 }  // namespace detail
 
-inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, BarSpan span,
+inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, ProfileSpan span,
                                            Symbology symbology, BlurredEanScratch& scratch) {
     if (profile.empty()) return Status::empty_image;
     if (profile.size() < 64 || profile.size() > max_image_side) return Status::bad_argument;
@@ -264,13 +270,9 @@ inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, Ba
     if (symbology != Symbology::ean_13 && symbology != Symbology::ean_8) return Status::bad_argument;
     const detail::BlurPlan& plan = symbology == Symbology::ean_13 ? detail::ean_13_plan : detail::ean_8_plan;
     detail::BlurredEanReader reader(profile, plan, scratch);
-    BlurredEan best[2];
-    Status status[2];
-    for (const bool reversed : {false, true}) status[reversed] = reader.read(span, reversed, best[reversed]);
-    if (status[0] != Status::ok && status[1] != Status::ok) return Status::not_found;
-    const bool reversed =
-        status[0] != Status::ok || (status[1] == Status::ok && best[1].residual < best[0].residual);
-    return best[reversed ? 1 : 0];
+    BlurredEan best;
+    if (Status status = reader.read(span, best); status != Status::ok) return status;
+    return best;
 }
 
 }  // namespace fovea
