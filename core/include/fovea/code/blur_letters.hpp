@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+//
+// The letters of EAN and UPC as a blurred picture shows them: what one sees of a letter, and of one beside another, where
+// the light of every module reaches over its neighbours. Book ch. 5; ISO/IEC 15420, 4.2.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/assert.hpp>
+#include <fovea/number/fixed.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea::detail {
+
+/// A module is seen in two samples, at a quarter and three quarters of it.
+inline constexpr int blur_samples = 2;
+/// Samples that light reaches beyond its module: blur is at most 3.5 modules to each side, so that a letter of seven meets
+/// none but its neighbours.
+inline constexpr int blur_reach = 7;
+inline constexpr int module_response_size = blur_samples + 2 * blur_reach;
+inline constexpr int letter_response_size = 7 * blur_samples + 2 * blur_reach;
+/// Darkness 1, a bar without end.
+inline constexpr std::int32_t full_darkness = 1024;
+
+/// The share of a lens's disc that lies left of a place, 0 at -1 and 32768 at 1: 1/2 + (u sqrt(1 - u^2) + asin u) / pi, at
+/// the 64ths from 0 to 1. It is how an edge looks that is out of focus.
+inline constexpr std::uint16_t disc_shares[65] = {
+    16384, 16710, 17036, 17361, 17687, 18012, 18337, 18661, 18985, 19308, 19630, 19952, 20272,
+    20592, 20911, 21228, 21544, 21859, 22173, 22485, 22795, 23104, 23411, 23716, 24019, 24320,
+    24619, 24916, 25210, 25502, 25792, 26078, 26362, 26643, 26920, 27195, 27466, 27734, 27998,
+    28258, 28515, 28767, 29015, 29259, 29498, 29732, 29962, 30185, 30404, 30617, 30823, 31023,
+    31217, 31403, 31582, 31753, 31915, 32068, 32211, 32344, 32464, 32570, 32660, 32730, 32768,
+};
+
+/// disc_shares at any place, linear between.
+constexpr std::int32_t disc_share(Ratio place) {
+    const std::int32_t far = place.raw() < 0 ? -place.raw() : place.raw();
+    std::int32_t share = 32768;
+    if (far < Ratio::one) {
+        const int step = far >> 10;
+        share = disc_shares[step] + ((disc_shares[step + 1] - disc_shares[step]) * (far & 1023) >> 10);
+    }
+    return place.raw() < 0 ? 32768 - share : share;
+}
+
+/// The three sets of ten letters: A and B left of the centre, C right of it. ISO/IEC 15420, table 1.
+inline constexpr int letter_count = 30;
+inline constexpr int first_c = 20;
+
+/// Dark modules of a letter, its first module in bit 6. B is C from behind, C is A with its colours exchanged.
+constexpr unsigned letter_modules(int letter) {
+    FOVEA_ASSERT(letter >= 0 && letter < letter_count);
+    constexpr std::uint8_t set_a[10] = {0x0D, 0x19, 0x13, 0x3D, 0x23, 0x31, 0x2F, 0x3B, 0x37, 0x0B};
+    const unsigned a = set_a[letter % 10];
+    if (letter < 10) return a;
+    const unsigned c = ~a & 0x7F;
+    if (letter >= first_c) return c;
+    unsigned b = 0;
+    for (int k = 0; k < 7; ++k) b |= (c >> k & 1) << (6 - k);
+    return b;
+}
+
+/// Where the letters of a symbol stand.
+struct BlurPlan {
+    int modules;
+    int letters;
+    int left;         ///< letters left of the centre
+    bool has_parity;  ///< these are of A or B, which tells a digit more; else of A
+
+    constexpr int samples() const { return blur_samples * modules + 2 * blur_reach; }
+    constexpr int centre() const { return 3 + 7 * left; }
+    /// The first module of a letter.
+    constexpr int first(int letter) const {
+        return letter < left ? 3 + 7 * letter : centre() + 5 + 7 * (letter - left);
+    }
+    /// Letters that may stand at a place, and the first of them.
+    constexpr int alphabet_size(int place) const { return place < left && has_parity ? 20 : 10; }
+    constexpr int alphabet(int place) const { return place < left ? 0 : first_c; }
+    /// The dark modules of the guards.
+    constexpr int guard(int index) const {
+        const int dark[6] = {0, 2, centre() + 1, centre() + 3, modules - 3, modules - 1};
+        return dark[index];
+    }
+    static constexpr int guards = 6;
+};
+inline constexpr BlurPlan ean_13_plan{95, 12, 6, true};
+inline constexpr BlurPlan ean_8_plan{67, 8, 4, false};
+inline constexpr int most_blur_letters = 12;
+inline constexpr int most_blur_samples = ean_13_plan.samples();
+
+/// Darkness that a single dark module leaves in the samples from blur_reach before it.
+struct ModuleResponse {
+    std::int32_t at[module_response_size];
+};
+
+/// blur is the half of the width over which an edge is spread, in modules: 0.3 to 3.5.
+inline ModuleResponse module_response(Ratio blur) {
+    FOVEA_ASSERT(blur.raw() >= Ratio::one * 3 / 10 && blur.raw() <= Ratio::one * 7 / 2);
+    ModuleResponse response{};
+    const auto share = [blur](std::int64_t place) {
+        const std::int64_t in_blurs = place * Ratio::one / blur.raw();
+        return disc_share(Ratio::from_raw(
+            static_cast<std::int32_t>(clamp<std::int64_t>(in_blurs, -Ratio::one, Ratio::one))));
+    };
+    for (int i = 0; i < module_response_size; ++i) {
+        const std::int64_t place = std::int64_t{2 * (i - blur_reach) + 1} * Ratio::one / (2 * blur_samples);
+        response.at[i] = round_shift(share(place) - share(place - Ratio::one), 5);
+    }
+    return response;
+}
+
+/// What is seen of each letter, and what two letters that meet have in common.
+///
+/// Darkness is a sum, so the squares between what is seen and what a row of letters would show come apart into a part for
+/// each letter and one for each pair of neighbours: |z - sum T|^2 = |z|^2 + sum (|T|^2 - 2 zT) + sum 2 T T'.
+struct BlurLetters {
+    ModuleResponse module;
+    std::int32_t response[letter_count][letter_response_size];  ///< at most full_darkness
+    std::int32_t energy[letter_count];                          ///< |T|^2
+    std::int32_t beside[letter_count][letter_count];  ///< 2 T T' of a letter and the next of its side
+    std::int32_t across[first_c][10];                 ///< the same across the centre; the right one is of C
+};
+
+inline std::int32_t common_darkness(const std::int32_t* left, const std::int32_t* right, int distance) {
+    std::int32_t sum = 0;
+    for (int j = distance; j < letter_response_size; ++j) sum += left[j] * right[j - distance];
+    return 2 * sum;
+}
+
+inline void see_letters(Ratio blur, BlurLetters& letters) {
+    letters.module = module_response(blur);
+    for (int letter = 0; letter < letter_count; ++letter) {
+        std::int32_t* response = letters.response[letter];
+        for (int j = 0; j < letter_response_size; ++j) response[j] = 0;
+        for (int k = 0; k < 7; ++k) {
+            if ((letter_modules(letter) >> (6 - k) & 1) == 0) continue;
+            for (int i = 0; i < module_response_size; ++i)
+                response[blur_samples * k + i] += letters.module.at[i];
+        }
+        letters.energy[letter] = common_darkness(response, response, 0) / 2;
+    }
+    for (int left = 0; left < letter_count; ++left) {
+        const int first = left < first_c ? 0 : first_c;
+        for (int right = first; right < (left < first_c ? first_c : letter_count); ++right) {
+            letters.beside[left][right] =
+                common_darkness(letters.response[left], letters.response[right], 7 * blur_samples);
+        }
+    }
+    for (int left = 0; left < first_c; ++left) {
+        for (int right = 0; right < 10; ++right) {
+            letters.across[left][right] = common_darkness(
+                letters.response[left], letters.response[first_c + right], (7 + 5) * blur_samples);
+        }
+    }
+}
+
+}  // namespace fovea::detail

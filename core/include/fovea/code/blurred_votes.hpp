@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// Votes of blurred profiles: what may be believed of readings that each are but the best fit there is.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/code/blurred_ean.hpp>
+#include <fovea/number/fixed.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// Readings of several profiles across the same bars. Digits are believed when two profiles give them with a clear margin,
+/// and no others have been seen with nearly one.
+///
+/// Of 12000 stretches of photos without a readable EAN, and of as many made at random, the largest margin was 1.15; a second
+/// profile with the same wrong digits and a margin was never seen. Wrong digits beside right ones, under a highlight,
+/// reached 1.24 once.
+class BlurredVotes {
+public:
+    /// What a profile must have to count, and what speaks against others.
+    static constexpr std::int32_t clear_margin = Ratio::one * 5 / 4;
+    static constexpr std::int32_t doubtful_margin = Ratio::one * 23 / 20;
+    static constexpr int profiles_needed = 2;
+
+    /// The profiles so far with these digits and a clear margin; 0 if this is none.
+    inline int take(const BlurredEan& reading);
+    /// True if the digits that most profiles gave may be told.
+    constexpr bool decided() const {
+        return count_ > 0 && seen_[0].votes >= profiles_needed && seen_[0].votes > 2 * against_;
+    }
+    /// The best reading of these digits. Asking is our own mistake before the first vote.
+    constexpr const BlurredEan& best() const {
+        FOVEA_ASSERT(count_ > 0);
+        return seen_[0].best;
+    }
+    constexpr int votes() const { return count_ > 0 ? seen_[0].votes : 0; }
+
+private:
+    struct Seen {
+        BlurredEan best;
+        int votes = 0;
+    };
+    static constexpr int most = 4;
+
+    static constexpr bool same(const BlurredEan& a, const BlurredEan& b) {
+        if (a.digit_count != b.digit_count) return false;
+        for (int i = 0; i < a.digit_count; ++i) {
+            if (a.digits[i] != b.digits[i]) return false;
+        }
+        return true;
+    }
+
+    Seen seen_[most];  ///< the one with most votes first
+    int count_ = 0;
+    int against_ = 0;  ///< profiles with other digits than the first and a doubtful margin or more
+};
+
+// ---- Implementation ---------------------------------------------------------------
+
+inline int BlurredVotes::take(const BlurredEan& reading) {
+    if (reading.margin.raw() < doubtful_margin) return 0;
+    const bool clear = reading.margin.raw() >= clear_margin;
+    int at = 0;
+    while (at < count_ && !same(seen_[at].best, reading)) ++at;
+    if (at == most) {
+        ++against_;
+        return 0;
+    }
+    if (at == count_) seen_[count_++] = {reading, 0};
+    if (reading.margin > seen_[at].best.margin) seen_[at].best = reading;
+    const int votes = seen_[at].votes += clear ? 1 : 0;
+    if (at > 0) ++against_;
+    if (at > 0 && votes > seen_[0].votes) {
+        const Seen first = seen_[at];
+        seen_[at] = seen_[0];
+        seen_[0] = first;
+        // Who spoke for the others speaks against these now.
+        against_ = 0;
+        for (int i = 1; i < count_; ++i) against_ += maximum(seen_[i].votes, 1);
+    }
+    return votes;
+}
+
+}  // namespace fovea

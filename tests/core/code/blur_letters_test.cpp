@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <fovea/code/blur_letters.hpp>
+
+#include "support/blurred_bars.hpp"
+
+namespace fovea::detail {
+namespace {
+
+TEST(DiscShare, IsTheAreaOfADiscLeftOfALine) {
+    for (int raw = -70000; raw <= 70000; raw += 7) {
+        const double u = std::fmin(1, std::fmax(-1, raw / 65536.0));
+        const double share = 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / std::acos(-1.0);
+        // The chords of the table lie up to (1/64)^2 / 8 times the curvature off, which is large at the rim: 10 of 32768.
+        ASSERT_NEAR(disc_share(Ratio::from_raw(raw)), share * 32768, 10) << raw;
+    }
+    EXPECT_EQ(disc_share(Ratio::from_raw(0)), 16384);
+    EXPECT_EQ(disc_share(Ratio::from_int(-1)), 0);
+    EXPECT_EQ(disc_share(Ratio::from_int(1)), 32768);
+}
+
+TEST(LetterModules, AreThoseOfTheStandard) {
+    EXPECT_EQ(letter_modules(0), 0x0DU);            // A 0: 0001101
+    EXPECT_EQ(letter_modules(10), 0x27U);           // B 0: 0100111
+    EXPECT_EQ(letter_modules(first_c), 0x72U);      // C 0: 1110010
+    EXPECT_EQ(letter_modules(first_c + 9), 0x74U);  // C 9: 1110100
+    for (int letter = 0; letter < letter_count; ++letter) {
+        int dark = 0;
+        for (int k = 0; k < 7; ++k) dark += static_cast<int>(letter_modules(letter) >> k & 1);
+        EXPECT_EQ(dark % 2, letter < 10 ? 1 : 0) << letter;
+        EXPECT_LE(dark, 5);
+    }
+}
+
+TEST(BlurPlan, HasItsLettersAndGuardsWhereTheModulesAre) {
+    const std::string modules = test::ean_modules("9780905705712");
+    // The book's own number, as it is printed there.
+    EXPECT_EQ(
+        modules,
+        "10101110110001001010011100010110100111011000101010100010011100101001110100010011001101101100101");
+    EXPECT_EQ(static_cast<int>(modules.size()), ean_13_plan.modules);
+    EXPECT_EQ(static_cast<int>(test::ean_modules("96385074").size()), ean_8_plan.modules);
+    for (const BlurPlan& plan : {ean_13_plan, ean_8_plan}) {
+        EXPECT_EQ(plan.first(plan.left) - plan.first(plan.left - 1), 12);
+        EXPECT_EQ(plan.first(plan.letters - 1) + 7, plan.modules - 3);
+        EXPECT_EQ(plan.guard(2), plan.centre() + 1);
+    }
+    for (int i = 0; i < BlurPlan::guards; ++i) {
+        EXPECT_EQ(modules[static_cast<std::size_t>(ean_13_plan.guard(i))], '1');
+    }
+}
+
+TEST(ModuleResponse, IsAModuleOfDarknessHoweverItIsSpread) {
+    for (int tenths = 3; tenths <= 35; ++tenths) {
+        const ModuleResponse response = module_response(Ratio::from_ratio(tenths, 10));
+        int sum = 0;
+        for (const std::int32_t at : response.at) {
+            EXPECT_GE(at, 0);
+            EXPECT_LE(at, full_darkness);
+            sum += at;
+        }
+        // Two samples a module; what lies between them is told to a hundredth where blur is wider than their distance.
+        EXPECT_NEAR(sum, blur_samples * full_darkness, tenths < 6 ? 40 : 25) << tenths;
+        for (int i = 0; i < module_response_size; ++i) {
+            EXPECT_EQ(response.at[i], response.at[module_response_size - 1 - i]) << tenths << ' ' << i;
+        }
+    }
+}
+
+TEST(SeeLetters, SquaresOfARowComeApartIntoLettersAndPairs) {
+    static BlurLetters letters;
+    see_letters(Ratio::from_ratio(27, 10), letters);
+    const int row[3] = {4, 17, 8};
+    std::int64_t whole = 0;
+    std::int32_t sum[3 * 14 + 2 * blur_reach] = {};
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < letter_response_size; ++j) sum[14 * i + j] += letters.response[row[i]][j];
+    }
+    for (const std::int32_t at : sum) whole += std::int64_t{at} * at;
+    std::int64_t parts = 0;
+    for (const int letter : row) parts += letters.energy[letter];
+    parts += letters.beside[row[0]][row[1]] + letters.beside[row[1]][row[2]];
+    EXPECT_EQ(parts, whole);
+}
+
+}  // namespace
+}  // namespace fovea::detail
