@@ -10,6 +10,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/code/code.hpp>
 #include <fovea/code/read_bars.hpp>
+#include <fovea/code/read_blurred_bars.hpp>
 #include <fovea/code/read_data_matrix.hpp>
 #include <fovea/code/read_qr.hpp>
 #include <fovea/code/symbology.hpp>
@@ -32,7 +33,8 @@ struct ReadCodesOptions {
 
 /// Scratch bytes that read_codes() needs.
 constexpr std::int64_t read_codes_scratch(Size size) {
-    return maximum(read_bars_scratch(size), maximum(read_qr_scratch(size), read_data_matrix_scratch(size)));
+    return maximum(maximum(read_bars_scratch(size), read_blurred_bars_scratch(size)),
+                   maximum(read_qr_scratch(size), read_data_matrix_scratch(size)));
 }
 
 /// Reads the codes of an image: matrices first, then bars; if there are none, again with all means.
@@ -80,6 +82,9 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
         rules.effort = thorough ? 2 : 1;
         doubt = read_bars(src, rules, scratch, text, codes);
         if (failed(doubt)) return doubt;
+    }
+    if (thorough && !bars.empty() && codes.size() == before) {
+        if (Status s = read_blurred_bars(src, bars, left(), scratch, text, codes); failed(s)) return s;
     }
     return codes.size() > before ? Status::ok : doubt;
 }
