@@ -2,7 +2,9 @@
 """Runs every fuzz program below a build folder for a fixed number of inputs from a fixed seed.
 
 A program fuzz_<folder>_<name> begins with the inputs of tests/fuzz/<folder>/<name>_corpus/, if that exists. New
-inputs stay in the build folder; an input that crashes is written to crash-* there, and becomes a named test.
+inputs stay in the build folder; an input that crashes is written to crash-* there, and becomes a named test. What
+searches whole images takes a hundred times as long as what parses a line: tests/fuzz/slow.txt says which programs get
+a share of the inputs.
 
 usage: fuzz.py BUILD_FOLDER [RUNS]
 """
@@ -26,10 +28,16 @@ def main():
     seeds = {"fuzz_" + "_".join(path.relative_to(corpora).parts).removesuffix("_corpus"): path
              for path in corpora.rglob("*_corpus")}
 
+    slow = {}
+    for line in (corpora / "slow.txt").read_text().split("\n"):
+        if line and not line.startswith("#"):
+            name, share = line.split()[:2]
+            slow[name] = int(share)
+
     def run(program):
         grown = build / "corpus" / program.name
         grown.mkdir(parents=True, exist_ok=True)
-        command = [str(program), f"-runs={runs}", "-seed=1", f"-timeout={SECONDS_AN_INPUT}", f"-rss_limit_mb={MEGABYTES}",
+        command = [str(program), f"-runs={runs // slow.get(program.name, 1)}", "-seed=1", f"-timeout={SECONDS_AN_INPUT}", f"-rss_limit_mb={MEGABYTES}",
                    f"-artifact_prefix={build}/", "-print_final_stats=1", str(grown)]
         if program.name in seeds:
             command.append(str(seeds[program.name]))

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include <fovea/code/blurred_votes.hpp>
+
+namespace fovea {
+namespace {
+
+BlurredEan reading(const std::string& digits, int hundredths) {
+    BlurredEan ean;
+    ean.digit_count = static_cast<int>(digits.size());
+    for (std::size_t i = 0; i < digits.size(); ++i)
+        ean.digits[i] = static_cast<std::uint8_t>(digits[i] - '0');
+    ean.margin = Ratio::from_ratio(hundredths, 100);
+    return ean;
+}
+
+TEST(BlurredVotes, DecideWhenTwoProfilesAgreeClearly) {
+    BlurredVotes votes;
+    EXPECT_EQ(votes.take(reading("9780905705712", 160)), 1);
+    EXPECT_FALSE(votes.decided());
+    EXPECT_EQ(votes.take(reading("9780905705712", 130)), 2);
+    EXPECT_TRUE(votes.decided());
+    EXPECT_EQ(votes.best().margin, Ratio::from_ratio(160, 100));
+}
+
+TEST(BlurredVotes, DoNotCountWhatIsNotClear) {
+    BlurredVotes votes;
+    for (int i = 0; i < 9; ++i) EXPECT_EQ(votes.take(reading("5110011111420", 115 + i)), 0);
+    EXPECT_FALSE(votes.decided());
+    EXPECT_EQ(votes.take(reading("5110011111420", 114)), 0);
+}
+
+TEST(BlurredVotes, AreHeldUpByOtherDigits) {
+    BlurredVotes votes;
+    EXPECT_EQ(votes.take(reading("6780515460950", 126)), 1);
+    EXPECT_EQ(votes.take(reading("9780345460950", 200)), 1);
+    EXPECT_EQ(votes.take(reading("9780345460950", 200)), 2);
+    // One profile speaks for others: two are not more than twice as many.
+    EXPECT_FALSE(votes.decided());
+    EXPECT_EQ(votes.take(reading("9780345460950", 200)), 3);
+    EXPECT_TRUE(votes.decided());
+    EXPECT_EQ(votes.best().digits[0], 9);
+}
+
+TEST(BlurredVotes, ManyDifferentReadingsDecideNothing) {
+    BlurredVotes votes;
+    for (int i = 0; i < 20; ++i) {
+        std::string digits = "9780345460950";
+        digits[4] = static_cast<char>('0' + i % 7);
+        EXPECT_GE(votes.take(reading(digits, 130)), 0);
+    }
+    EXPECT_FALSE(votes.decided());
+}
+
+}  // namespace
+}  // namespace fovea
