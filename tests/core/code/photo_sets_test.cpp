@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+//
+// Photos of codes with their texts: how many are read at every quarter turn, that none is misread, and that nothing is read
+// where there is no code.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fovea/codec/any_picture.hpp>
+
+#include <read/read_command.hpp>
+#include <support/picture.hpp>
+
+namespace fovea::test {
+namespace {
+
+using apps::Picture;
+using apps::ReadCode;
+
+Picture<Gray8> load(const std::filesystem::path& path) {
+    const std::vector<std::uint8_t> bytes = read_file(path);
+    const Span<const std::uint8_t> file(bytes.data(), static_cast<std::ptrdiff_t>(bytes.size()));
+    const Result<PictureInfo> info = inspect_picture(file);
+    Picture<Gray8> picture;
+    if (!info.ok()) return picture;
+    picture = Picture<Gray8>(info->size);
+    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(info->scratch_bytes));
+    if (decode_picture(file, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}, picture.view()) !=
+        Status::ok) {
+        picture = Picture<Gray8>();
+    }
+    return picture;
+}
+Picture<Gray8> turned(const Picture<Gray8>& picture) {
+    Picture<Gray8> result({picture.size.height, picture.size.width});
+    for (int y = 0; y < picture.size.height; ++y) {
+        for (int x = 0; x < picture.size.width; ++x) {
+            result.view()(picture.size.height - 1 - y, x) = picture.view()(x, y);
+        }
+    }
+    return result;
+}
+/// A text as its file has it: lines end with a line feed, and no blank stands at an end.
+std::string plain(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c != '\r') result += c;
+    }
+    const auto is_blank = [](char c) { return c == ' ' || c == '\n' || c == '\t'; };
+    while (!result.empty() && is_blank(result.back())) result.pop_back();
+    result.erase(result.begin(), std::find_if_not(result.begin(), result.end(), is_blank));
+    return result;
+}
+
+struct Photo {
+    std::string name;
+    Picture<Gray8> picture;
+    std::string text;
+};
+std::vector<Photo> photos(const std::string& set) {
+    std::vector<Photo> result;
+    for (const auto& entry : std::filesystem::directory_iterator(data_folder() / "codes" / set)) {
+        if (entry.path().extension() == ".txt") continue;
+        const std::filesystem::path text = std::filesystem::path(entry.path()).replace_extension(".txt");
+        const std::vector<std::uint8_t> bytes = read_file(text);
+        result.push_back({entry.path().filename().string(), load(entry.path()),
+                          plain(std::string(bytes.begin(), bytes.end()))});
+    }
+    std::sort(result.begin(), result.end(), [](const Photo& a, const Photo& b) { return a.name < b.name; });
+    return result;
+}
+
+struct Set {
+    const char* name;
+    int read[4];  ///< at least so many, by quarter turns
+};
+
+/// What was read when this was written: fewer is a step back, more is news to be written down here.
+class PhotosOf : public ::testing::TestWithParam<Set> {};
+
+TEST_P(PhotosOf, AreReadAtEveryQuarterTurnAndNeverMisread) {
+    const Set& set = GetParam();
+    FOVEA_NEED_PICTURE(data_folder() / "codes" / set.name);
+    std::vector<Photo> pictures = photos(set.name);
+    ASSERT_FALSE(pictures.empty());
+    for (int turn = 0; turn < 4; ++turn) {
+        int read = 0;
+        for (Photo& photo : pictures) {
+            ASSERT_FALSE(photo.picture.size.empty()) << photo.name;
+            std::vector<ReadCode> codes;
+            static_cast<void>(apps::detail::read_picture(photo.picture, {}, codes));
+            bool right = false;
+            for (const ReadCode& code : codes) {
+                const std::string text = plain(code.text);
+                right = right || text == photo.text;
+                // One photo shows a code inside of another one.
+                const bool second = std::string(set.name) == "qrcode-2" && photo.name == "16.png";
+                EXPECT_TRUE(second || text == photo.text)
+                    << set.name << '/' << photo.name << " turned " << turn << ": " << text;
+            }
+            read += right ? 1 : 0;
+            photo.picture = turned(photo.picture);
+        }
+        EXPECT_GE(read, set.read[turn]) << set.name << " turned " << turn;
+        std::cout << set.name << " turned " << turn * 90 << ": " << read << " of " << pictures.size() << '\n';
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, PhotosOf,
+                         ::testing::Values(Set{"ean13-1", {32, 32, 32, 32}}, Set{"ean13-3", {55, 55, 55, 55}},
+                                           Set{"ean13-5", {15, 15, 15, 15}}, Set{"ean8-1", {8, 8, 8, 8}},
+                                           Set{"upca-1", {19, 18, 19, 18}}, Set{"upca-3", {13, 12, 13, 12}},
+                                           Set{"upca-4", {12, 12, 12, 12}}, Set{"upce-1", {3, 3, 3, 3}},
+                                           Set{"upce-3", {10, 10, 10, 10}}, Set{"qrcode-1", {20, 20, 20, 20}},
+                                           Set{"qrcode-2", {33, 33, 33, 33}},
+                                           Set{"qrcode-3", {42, 42, 42, 42}},
+                                           Set{"qrcode-5", {19, 19, 19, 19}},
+                                           Set{"datamatrix-1", {23, 23, 23, 23}},
+                                           Set{"datamatrix-3", {18, 18, 18, 18}}),
+                         [](const auto& instance) {
+                             std::string name = instance.param.name;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(PhotosWithoutCodes, AreSilent) {
+    FOVEA_NEED_PICTURE(data_folder() / "codes" / "falsepositives");
+    for (Photo& photo : photos("falsepositives")) {
+        for (int turn = 0; turn < 4; ++turn) {
+            std::vector<ReadCode> codes;
+            static_cast<void>(apps::detail::read_picture(photo.picture, {}, codes));
+            for (const ReadCode& code : codes)
+                ADD_FAILURE() << photo.name << " turned " << turn << ": " << apps::human_code(code);
+            photo.picture = turned(photo.picture);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace fovea::test
