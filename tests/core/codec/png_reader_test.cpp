@@ -103,25 +103,27 @@ TEST(PngReader, ReadsSixteenBitsIntoSixteenAndRoundsThemIntoEight) {
     EXPECT_EQ(narrow(2, 0), 1);
 }
 
-TEST(PngReader, ReadsColoursAndIgnoresAlpha) {
+TEST(PngReader, ReadsColoursAndShowsThemOnWhite) {
     const Bytes rgb = PngFile().header(2, 1, 8, 2).rows({0, 1, 2, 3, 4, 5, 6}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(rgb))->content, PictureContent::rgb888);
     EXPECT_EQ(decoded_png<Rgb888>(rgb, {2, 1})(1, 0), (Rgb888{4, 5, 6}));
     EXPECT_EQ(decoded_png<Gray8>(rgb, {2, 1})(1, 0), gray_of({4, 5, 6}));
     EXPECT_EQ(decoded_png<Gray16>(rgb, {2, 1})(1, 0), 257 * gray_of({4, 5, 6}));
     const Bytes rgba = PngFile().header(2, 1, 8, 6).rows({0, 1, 2, 3, 0, 4, 5, 6, 128}).end().bytes;
-    EXPECT_EQ(decoded_png<Rgb888>(rgba, {2, 1})(0, 0), (Rgb888{1, 2, 3}));
-    EXPECT_EQ(decoded_png<Rgb888>(rgba, {2, 1})(1, 0), (Rgb888{4, 5, 6}));
+    EXPECT_EQ(decoded_png<Rgb888>(rgba, {2, 1})(0, 0), (Rgb888{255, 255, 255}));
+    // 255 - 251 * 128 / 255 = 129.004, and so on.
+    EXPECT_EQ(decoded_png<Rgb888>(rgba, {2, 1})(1, 0), (Rgb888{129, 130, 130}));
     const Bytes gray_alpha = PngFile().header(2, 1, 8, 4).rows({0, 7, 0, 8, 255}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(gray_alpha))->content, PictureContent::gray8);
-    EXPECT_EQ(decoded_png<Gray8>(gray_alpha, {2, 1})(0, 0), 7);
+    EXPECT_EQ(decoded_png<Gray8>(gray_alpha, {2, 1})(0, 0), 255);
     EXPECT_EQ(decoded_png<Gray8>(gray_alpha, {2, 1})(1, 0), 8);
-    const Bytes deep = PngFile().header(1, 1, 16, 6).rows({0, 255, 255, 0x80, 0x80, 0, 0, 9, 9}).end().bytes;
+    const Bytes deep =
+        PngFile().header(1, 1, 16, 6).rows({0, 255, 255, 0x80, 0x80, 0, 0, 255, 255}).end().bytes;
     EXPECT_EQ(inspect_png(view_of(deep))->content, PictureContent::rgb48);
     EXPECT_EQ(inspect_png(view_of(deep))->scratch_bytes, png_reader_scratch({1, 1}));
     EXPECT_EQ(decoded_png<Rgb888>(deep, {1, 1})(0, 0), (Rgb888{255, 128, 0}));
-    const Bytes deep_gray = PngFile().header(1, 1, 16, 4).rows({0, 0x12, 0x34, 9, 9}).end().bytes;
-    EXPECT_EQ(decoded_png<Gray16>(deep_gray, {1, 1})(0, 0), 0x1234);
+    const Bytes deep_gray = PngFile().header(1, 1, 16, 4).rows({0, 0x12, 0x34, 0, 1}).end().bytes;
+    EXPECT_EQ(decoded_png<Gray16>(deep_gray, {1, 1})(0, 0), 65534);  // 65535 - 60875 / 65535
 }
 
 TEST(PngReader, LooksColoursUpInThePalette) {

@@ -37,7 +37,8 @@ constexpr std::int64_t read_codes_scratch(Size size) {
                    maximum(read_qr_scratch(size), read_data_matrix_scratch(size)));
 }
 
-/// Reads the codes of an image: matrices first, then bars; if there are none, again with all means.
+/// Reads the codes of an image: first what is found fastest, QR, then bars, then Data Matrix; if there are none, again with
+/// all means.
 ///
 /// Shapes   src 1x1 or larger
 /// Time     bounded, as read_qr(), read_data_matrix() and read_bars() are
@@ -68,11 +69,6 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
         qr.max_codes = left();
         if (Status s = read_qr(src, qr, scratch, text, codes); failed(s)) return s;
     }
-    if (options.symbologies.contains(Symbology::data_matrix) && left() > 0) {
-        ReadDataMatrixOptions data_matrix;
-        data_matrix.most_codes = left();
-        if (Status s = read_data_matrix(src, data_matrix, scratch, text, codes); failed(s)) return s;
-    }
     const SymbologySet bars = options.symbologies & bar_symbologies();
     if (!bars.empty() && left() > 0) {
         BarOptions rules;
@@ -82,6 +78,11 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
         rules.effort = thorough ? 2 : 1;
         doubt = read_bars(src, rules, scratch, text, codes);
         if (failed(doubt)) return doubt;
+    }
+    if (options.symbologies.contains(Symbology::data_matrix) && left() > 0) {
+        ReadDataMatrixOptions data_matrix;
+        data_matrix.most_codes = left();
+        if (Status s = read_data_matrix(src, data_matrix, scratch, text, codes); failed(s)) return s;
     }
     if (thorough && !bars.empty() && codes.size() == before) {
         if (Status s = read_blurred_bars(src, bars, left(), scratch, text, codes); failed(s)) return s;

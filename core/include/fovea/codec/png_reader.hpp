@@ -39,7 +39,8 @@ inline Result<PictureInfo> inspect_png(Span<const std::uint8_t> bytes);
 ///
 /// Shapes    dst as large as the picture
 /// Units     gray 1 to 16 bits becomes 0..255 (Gray8, Rgb888) or 0..65535 (Gray16). Samples are taken as they
-///           stand: alpha, gamma and background are ignored
+///           stand, gamma and background are ignored; what an alpha channel makes transparent is seen on
+///           white, as on paper
 /// Rounding  nearest, ties up; brightness of colours as gray_of(), from 8 bits a channel
 /// Scratch   as inspect_png() answers, or png_reader_scratch() bytes; undefined afterwards
 /// Errors    empty_image, all of inspect_png(), size_mismatch, scratch_too_small; then, before the first
@@ -271,19 +272,32 @@ constexpr std::uint32_t packed_sample(const std::uint8_t* row, int index, int de
     return static_cast<std::uint32_t>(row[bit / 8] >> shift & ((1 << depth) - 1));
 }
 
-/// Gray or colour pixels; sample(i) is the i-th sample of the row.
+/// A sample as it is seen on white through its alpha, both 0..most <= 65535; to the nearest.
+constexpr std::uint32_t png_on_white(std::uint32_t sample, std::uint32_t alpha, std::uint32_t most) {
+    return most - ((most - sample) * alpha + most / 2) / most;
+}
+
+/// Gray or colour pixels; sample(i) is the i-th sample of the row. A second or fourth one is alpha.
 template <class Pixel, class Sample>
 void png_sample_row(const PngHeader& header, Sample sample, Pixel* dst) {
     const std::uint32_t most = (1u << header.depth) - 1;
     const int samples = header.samples();
     const int width = header.size.width;
     if (samples < 3) {
-        for (int x = 0; x < width; ++x) dst[x] = pixel_of_gray<Pixel>(sample(x * samples), most);
+        for (int x = 0; x < width; ++x) {
+            const std::uint32_t level = sample(x * samples);
+            const std::uint32_t seen = samples == 2 ? png_on_white(level, sample(x * 2 + 1), most) : level;
+            dst[x] = pixel_of_gray<Pixel>(seen, most);
+        }
         return;
     }
-    const auto channel = [&](int i) { return pixel_of_gray<Gray8>(sample(i), most); };
     for (int x = 0; x < width; ++x) {
         const int i = x * samples;
+        const std::uint32_t alpha = samples == 4 ? sample(i + 3) : most;
+        const auto channel = [&](int k) {
+            return pixel_of_gray<Gray8>(samples == 4 ? png_on_white(sample(k), alpha, most) : sample(k),
+                                        most);
+        };
         dst[x] = pixel_of_colour<Pixel>({channel(i), channel(i + 1), channel(i + 2)});
     }
 }

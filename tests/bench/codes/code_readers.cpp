@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+//
+// Reads the photo sets of codes with fovea and with the readers that are installed, picture by picture in turn, and prints
+// how many each reads at every quarter turn, how often it says something else, and the median of its times.
+//
+// usage: code_readers [SET...]
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#ifdef FOVEA_HAVE_ZBAR
+#include <zbar.h>
+#endif
+
+#include <read/read_command.hpp>
+#include <support/code_photos.hpp>
+
+#ifdef FOVEA_HAVE_ZXING
+#include <ZXing/ReadBarcode.h>
+#include <ZXing/TextUtfEncoding.h>
+#endif
+
+namespace {
+
+using namespace fovea;
+using test::Photo;
+
+/// The texts that a reader finds in a picture.
+using Texts = std::vector<std::string>;
+struct Reader {
+    const char* name;
+    std::function<Texts(const apps::Picture<Gray8>&)> read;
+};
+
+Texts read_with_fovea(const apps::Picture<Gray8>& picture, int most_codes) {
+    std::vector<apps::ReadCode> codes;
+    ReadCodesOptions options;
+    options.most_codes = most_codes;
+    static_cast<void>(apps::detail::read_picture(picture, options, codes));
+    Texts texts;
+    for (const apps::ReadCode& code : codes) texts.push_back(code.text);
+    return texts;
+}
+
+#ifdef FOVEA_HAVE_ZXING
+ZXing::DecodeHints hard() {
+    ZXing::DecodeHints hints;
+    hints.setTryHarder(true);
+    hints.setTryRotate(true);
+    return hints;
+}
+#endif
+
+std::vector<Reader> readers() {
+    std::vector<Reader> result = {
+        {"fovea, one code", [](const apps::Picture<Gray8>& picture) { return read_with_fovea(picture, 1); }},
+        {"fovea, all codes",
+         [](const apps::Picture<Gray8>& picture) { return read_with_fovea(picture, 32); }}};
+#ifdef FOVEA_HAVE_ZXING
+    result.push_back(
+        {"zxing-cpp, one code", [](const apps::Picture<Gray8>& picture) {
+             ZXing::DecodeHints hints;
+             hints.setTryHarder(true);
+             hints.setTryRotate(true);
+             const auto found = ZXing::ReadBarcode(
+                 {picture.pixels.data(), picture.size.width, picture.size.height, ZXing::ImageFormat::Lum},
+                 hints);
+             return found.isValid() ? Texts{ZXing::TextUtfEncoding::ToUtf8(found.text())} : Texts{};
+         }});
+    result.push_back({"zxing-cpp, all codes", [](const apps::Picture<Gray8>& picture) {
+                          Texts texts;
+                          for (const auto& found :
+                               ZXing::ReadBarcodes({picture.pixels.data(), picture.size.width,
+                                                    picture.size.height, ZXing::ImageFormat::Lum},
+                                                   hard()))
+                              texts.push_back(ZXing::TextUtfEncoding::ToUtf8(found.text()));
+                          return texts;
+                      }});
+#endif
+#ifdef FOVEA_HAVE_ZBAR
+    const auto scanner = std::make_shared<zbar::ImageScanner>();
+    scanner->set_config(zbar::ZBAR_NONE, zbar::ZBAR_CFG_ENABLE, 1);
+    scanner->set_config(zbar::ZBAR_UPCA, zbar::ZBAR_CFG_ENABLE, 1);
+    scanner->set_config(zbar::ZBAR_UPCE, zbar::ZBAR_CFG_ENABLE, 1);
+    result.push_back({"zbar, all codes", [scanner](const apps::Picture<Gray8>& picture) {
+                          zbar::Image image(static_cast<unsigned>(picture.size.width),
+                                            static_cast<unsigned>(picture.size.height), "Y800",
+                                            picture.pixels.data(), picture.pixels.size());
+                          scanner->scan(image);
+                          Texts texts;
+                          for (auto symbol = image.symbol_begin(); symbol != image.symbol_end(); ++symbol)
+                              texts.push_back(symbol->get_data());
+                          return texts;
+                      }});
+#endif
+    return result;
+}
+
+/// Readers differ in whether a UPC-A has the leading zero of its EAN-13, and whether a UPC-E is told as UPC-A.
+bool same(const std::string& text, const std::string& truth) {
+    const std::string read = test::plain(text);
+    return read == truth || (truth.size() == 12 && read == "0" + truth);
+}
+
+struct Score {
+    int read[4] = {};
+    int other = 0;
+    std::vector<double> milliseconds;
+};
+
+void measure(const std::string& set, const std::vector<Reader>& all) {
+    std::vector<Photo> pictures = test::photos(set);
+    if (pictures.empty()) return;
+    std::vector<Score> scores(all.size());
+    for (int turn = 0; turn < 4; ++turn) {
+        for (Photo& photo : pictures) {
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                const auto start = std::chrono::steady_clock::now();
+                const Texts texts = all[i].read(photo.picture);
+                const std::chrono::duration<double, std::milli> took =
+                    std::chrono::steady_clock::now() - start;
+                scores[i].milliseconds.push_back(took.count());
+                const bool right =
+                    !photo.text.empty() && std::any_of(texts.begin(), texts.end(),
+                                                       [&](const auto& t) { return same(t, photo.text); });
+                scores[i].read[turn] += right ? 1 : 0;
+                for (const std::string& text : texts) scores[i].other += same(text, photo.text) ? 0 : 1;
+            }
+            photo.picture = test::turned(photo.picture);
+        }
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        Score& score = scores[i];
+        std::sort(score.milliseconds.begin(), score.milliseconds.end());
+        std::printf("| %s | %zu | %s | %d / %d / %d / %d | %d | %.2f | %.1f |\n", i == 0 ? set.c_str() : "",
+                    pictures.size(), all[i].name, score.read[0], score.read[1], score.read[2], score.read[3],
+                    score.other, score.milliseconds[score.milliseconds.size() / 2],
+                    score.milliseconds.back());
+        std::fflush(stdout);
+    }
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    std::vector<std::string> sets(words + 1, words + count);
+    if (sets.empty()) {
+        const auto folder = test::data_folder() / "codes";
+        if (!std::filesystem::exists(folder)) {
+            std::fprintf(stderr, "code_readers: no photos in %s; FOVEA_TEST_DATA names their folder\n",
+                         folder.c_str());
+            return 1;
+        }
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            sets.push_back(entry.path().filename().string());
+        std::sort(sets.begin(), sets.end());
+    }
+    std::printf(
+        "| set | pictures | reader | read at 0 / 90 / 180 / 270 degrees | other texts | ms, median | ms, "
+        "most |\n"
+        "|---|---|---|---|---|---|---|\n");
+    const std::vector<Reader> all = readers();
+    for (const std::string& set : sets) measure(set, all);
+}
