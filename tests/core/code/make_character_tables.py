@@ -65,6 +65,13 @@ def main():
     rows = [row for row in list(range(1, 9)) + [13] + list(range(16, 85))]
     lines = ['    u"' + "".join(map(chr, kanji_row(row))).replace("\\", "\\\\").replace('"', '\\"') + '"' for row in rows]
     print("\n".join(lines) + ";")
+    print("/// GB 2312 by rows of 94 cells: 1 to 9, then 16 to 87.")
+    print("inline constexpr char16_t gb_2312[] =")
+    lines = []
+    for row in list(range(1, 10)) + list(range(16, 88)):
+        codes = [decoded(bytes([0xA0 + row, 0xA1 + cell]), "gb2312") for cell in range(94)]
+        lines.append('    u"' + "".join(map(chr, codes)).replace("\\", "\\\\").replace('"', '\\"') + '"')
+    print("\n".join(lines) + ";")
     print("// clang-format on\n")
     print("}  // namespace fovea::detail")
 

@@ -101,19 +101,23 @@ private:
         }
         return count < 4 ? -1 : sorted[count / 2];
     }
-    /// How far the third change of colour is from the centre along a way of a known length, in 1/256 px; 0 if
-    /// there is none within seven modules.
+    /// How far the outer edge is from the centre along a way of a known length, in 1/256 px; 0 if there is none
+    /// within seven modules. Where it is farther than the inner edge of the ring allows, or not there, that one
+    /// tells.
     std::int64_t extent(Place way, std::int64_t way_length, std::int64_t module) const {
         const std::int64_t step = maximum<std::int64_t>(module / 8, 48);
         bool dark = true;
         int changes = 0;
+        std::int64_t inner = 0;
         for (std::int64_t s = 0; s < 7 * module; s += step) {
             const Place place = centre_ + way * s / way_length;
             if (image_.dark(place) == dark) continue;
             dark = !dark;
-            if (++changes == 3) return s - step / 2;
+            ++changes;
+            if (changes == 2) inner = s - step / 2;
+            if (changes == 3) return s * 5 > inner * 8 ? inner * 7 / 5 : s - step / 2;
         }
-        return 0;
+        return inner * 7 / 5;
     }
     bool measure_axis(Place towards, std::int64_t module, Place& axis) {
         const std::int64_t way = length(towards);

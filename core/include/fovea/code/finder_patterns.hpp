@@ -19,8 +19,10 @@ struct FinderPattern {
     std::int64_t module = 0;  ///< 1/256 px: a seventh of what it measures across and down, in the mean
     bool inverted = false;    ///< light where others are dark
     int lines = 1;            ///< rows that crossed it
+    int rings = 0;            ///< places around its centre that are as they must be, 0 to most_finder_rings
 };
 inline constexpr int max_finder_patterns = 96;
+inline constexpr int most_finder_rings = 24;
 
 /// Pixels of one colour through a pixel and around, outside of the image another colour.
 struct FinderImage {
@@ -35,11 +37,22 @@ struct FinderImage {
     }
 };
 
+constexpr bool stronger(const FinderPattern& a, const FinderPattern& b) {
+    return a.rings != b.rings ? a.rings > b.rings : a.lines > b.lines;
+}
+
 /// Five runs of a line in turn.
 struct FiveRuns {
     int run[5] = {};
 
     constexpr int total() const { return run[0] + run[1] + run[2] + run[3] + run[4]; }
+    /// Shortens one of the outer runs to what the three inside are to each other, if it is longer: where a
+    /// shadow or other print touches the pattern, its edge is not seen on that side.
+    constexpr void clip() {
+        const int most = (2 * (run[1] + run[2] + run[3]) + 4) / 5;
+        int& outer = run[0] > run[4] ? run[0] : run[4];
+        if (outer > most) outer = (run[1] + run[2] + run[3] + 4) / 5;
+    }
     /// Whether they are as 1:1:3:1:1. Ink that spreads or shrinks moves all edges of dark runs alike, so that
     /// what is compared is the way from an edge to the next of its kind: 2, 4, 4, 2 modules, each within
     /// slack/16 of a module and a pixel; single runs may be much thinner or broader.
@@ -86,13 +99,15 @@ inline CrossRuns cross_runs(const FinderImage& image, int x, int y, int dx, int 
                 px += sx;
                 py += sy;
             }
-            if (count > most || (part > 0 && count == 0)) return cross;
+            // The outer run may go on into a shadow.
+            if ((count > most && part < 2) || (part > 0 && count == 0)) return cross;
             if (part == 0) ends[side] = count;
             cross.runs.run[side == 0 ? 2 - part : 2 + part] += count;
         }
     }
     cross.runs.run[2] += 1;
     cross.twice_centre = ends[1] - ends[0];
+    cross.runs.clip();
     cross.complete = true;
     return cross;
 }
@@ -136,6 +151,7 @@ private:
         for (int i = 0; i < 5; ++i) runs.run[i] = edge[i + 1] - edge[i];
         const int middle = runs.run[2];
         if (middle <= runs.run[1] || middle <= runs.run[3]) return;
+        runs.clip();
         if (!runs.fits(row_slack)) return;
         const int x = (edge[2] + edge[3] - 1) / 2;
         const bool inverted = !dark;
@@ -169,24 +185,42 @@ private:
         }
         if (diagonals == 0) return;
         FinderPattern found;
+        found.rings = rings(
+            image,
+            {std::int64_t{2 * x + again.twice_centre} * 128, std::int64_t{2 * y + down.twice_centre} * 128},
+            again.runs.total(), height);
+        if (found.rings < least_rings) return;
         found.centre = {std::int64_t{2 * x + again.twice_centre} * 128,
                         std::int64_t{2 * y + down.twice_centre} * 128};
         found.module = std::int64_t{again.runs.total() + height} * 128 / 7;
         found.inverted = image.inverted;
         if (patterns_.push(found) != Status::ok) replace_weakest(found);
     }
-    /// A full list gives up a pattern that one row alone saw; the next rows may see the new one again.
-    void replace_weakest(const FinderPattern& found) {
-        for (FinderPattern& known : patterns_) {
-            if (known.lines > 1) continue;
-            known = found;
-            return;
+    /// A circle of 2.3 modules is in the light ring in every direction of the sides, one of 1.2 in the dark
+    /// middle. Sines of sixteenths of a turn, in 1/256.
+    static int rings(const FinderImage& image, Place centre, int width, int height) {
+        constexpr int sine[20] = {0,    98,   181,  237,  256,  237, 181, 98, 0,   -98,
+                                  -181, -237, -256, -237, -181, -98, 0,   98, 181, 237};
+        int right = 0;
+        for (int i = 0; i < 16; ++i) {
+            const Place way{std::int64_t{sine[i + 4]} * width, std::int64_t{sine[i]} * height};
+            right += image.dark(centre + way * 23 / 70) ? 0 : 1;
+            if (i % 2 == 0) right += image.dark(centre + way * 12 / 70) ? 1 : 0;
         }
+        return right;
+    }
+    /// A full list gives up the weakest pattern, if the new one is better.
+    void replace_weakest(const FinderPattern& found) {
+        FinderPattern* weakest = patterns_.begin();
+        for (FinderPattern& known : patterns_)
+            if (stronger(*weakest, known)) weakest = &known;
+        if (stronger(found, *weakest)) *weakest = found;
     }
 
     static constexpr int row_slack = 14;
     static constexpr int cross_slack = 18;
     static constexpr int diagonal_slack = 26;
+    static constexpr int least_rings = 18;
 
     BitView<const BitWord> bits_;
     ListView<FinderPattern> patterns_;

@@ -50,7 +50,7 @@ private:
         for (int i = 1; i < patterns_.size(); ++i) {
             const FinderPattern moved = patterns_[i];
             int j = i;
-            for (; j > 0 && patterns_[j - 1].lines < moved.lines; --j) patterns_[j] = patterns_[j - 1];
+            for (; j > 0 && stronger(moved, patterns_[j - 1]); --j) patterns_[j] = patterns_[j - 1];
             patterns_[j] = moved;
         }
     }

@@ -30,9 +30,9 @@ struct QrContents {
 
 /// Appends what the data codewords say.
 ///
-/// Errors  malformed, unsupported (Chinese characters of GB/T 18284, reserved modes), buffer_too_small,
+/// Errors  malformed, unsupported for reserved modes, buffer_too_small,
 ///         capacity_exceeded for too many changes of interpretation; text is then what it was
-/// Source  clauses 7.4 and 8; the digit is that of annex F
+/// Source  clauses 7.4 and 8; the digit is that of annex F. The mode of Chinese characters is GB/T 18284's
 inline Result<QrContents> read_qr_segments(Span<const std::uint8_t> data, int version, CodeText& text);
 
 }  // namespace detail
@@ -91,6 +91,7 @@ private:
             case 7: return interpretation();
             case 8: return counted(QrMode::kanji);
             case 9: return function_one(2);
+            case 13: return hanzi();
             default: return Status::unsupported;
         }
     }
@@ -193,6 +194,27 @@ private:
         }
         return Status::ok;
     }
+    /// Chinese characters in thirteen bits each, in rows of base 0x60 that begin at 0xA1A1 and 0xB0A1, after a
+    /// number of the set, of which there is one. GB/T 18284, 6.4.6.
+    Status hanzi() {
+        const int count_bits = qr_count_bits_of(QrMode::kanji, version_);
+        if (bits_.left() < 4 + count_bits) return Status::malformed;
+        if (bits_.take(4) != 1) return Status::unsupported;
+        const int count = static_cast<int>(bits_.take(count_bits));
+        if (bits_.left() < 13 * std::int64_t{count}) return Status::malformed;
+        if (count == 0) return Status::ok;
+        if (const Status s = text_.begin_segment(gb_2312_eci); s != Status::ok) return s;
+        in_kanji_ = true;
+        for (int i = 0; i < count; ++i) {
+            const unsigned value = bits_.take(13);
+            const unsigned packed = value / 0x60 << 8 | value % 0x60;
+            const unsigned code = packed + (packed < 0xA00 ? 0xA1A1U : 0xA6A1U);
+            if ((code & 0xFF) > 0xFE || code > 0xFFFF) return Status::malformed;
+            if (const Status s = push(code >> 8); s != Status::ok) return s;
+            if (const Status s = push(code & 0xFF); s != Status::ok) return s;
+        }
+        return Status::ok;
+    }
     /// One to three bytes, as the first of them says. Clause 7.4.2.
     Status interpretation() {
         if (bits_.left() < 8) return Status::malformed;
@@ -234,6 +256,7 @@ private:
 
     static constexpr unsigned group_separator = 0x1D;
     static constexpr int shift_jis = 20;
+    static constexpr int gb_2312_eci = 29;
 
     QrBits bits_;
     int version_;
@@ -241,7 +264,7 @@ private:
     QrContents contents_;
     int eci_ = TextSegment::not_stated;
     bool told_eci_ = false;
-    bool in_kanji_ = false;  ///< the text's last segment is Shift JIS
+    bool in_kanji_ = false;  ///< the text's last segment is Shift JIS or GB 2312
     int function_one_ = 0;
 };
 

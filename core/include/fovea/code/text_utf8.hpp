@@ -22,7 +22,7 @@ constexpr std::int64_t text_utf8_room(std::int64_t size) { return 3 * size; }
 /// characters stay what they are.
 ///
 /// Units   interpretations 0 to 13 and 15 to 18 (code page 437, parts of ISO/IEC 8859), 20 (Shift JIS), 21 to
-///         24 (Windows), 25 (UTF-16BE), 26 (UTF-8), 27 and 170 (ASCII), 899 (bytes, as ISO/IEC 8859-1).
+///         24 (Windows), 25 (UTF-16BE), 26 (UTF-8), 27 and 170 (ASCII), 29 (GB 2312), 899 (bytes, as ISO/IEC 8859-1).
 ///         Bytes that are no character become U+FFFD. Where nothing is stated: UTF-8 if it is, or else Shift
 ///         JIS if that is plausible, or else ISO/IEC 8859-1
 /// Errors  out_of_range for a part that is not within the text; unsupported for another interpretation;
@@ -73,6 +73,14 @@ constexpr ReadCharacter read_shift_jis(Span<const std::uint8_t> bytes) {
     const int cell = trail >= 0x9F ? trail - 0x9F : trail - 0x40 - (trail > 0x7F ? 1 : 0);
     const int line = row <= 8 ? row - 1 : row == 13 ? 8 : row >= 16 && row <= 84 ? row - 7 : -1;
     return {line < 0 ? no_character : jis_x_0208[line * 94 + cell], 2};
+}
+/// ASCII, or a character of GB 2312 as EUC writes it.
+constexpr ReadCharacter read_gb_2312(Span<const std::uint8_t> bytes) {
+    if (bytes[0] < 0x80) return {bytes[0], 1};
+    if (bytes[0] < 0xA1 || bytes.size() < 2 || bytes[1] < 0xA1 || bytes[1] == 0xFF) return {};
+    const int row = bytes[0] - 0xA0;
+    const int line = row <= 9 ? row - 1 : row >= 16 && row <= 87 ? row - 7 : -1;
+    return {line < 0 ? no_character : gb_2312[line * 94 + bytes[1] - 0xA1], 2};
 }
 constexpr ReadCharacter read_utf16(Span<const std::uint8_t> bytes) {
     if (bytes.size() < 2) return {};
@@ -168,8 +176,10 @@ inline Status put_segment(Span<const std::uint8_t> bytes, int eci, Utf8Writer& w
     constexpr int shift_jis = 20;
     constexpr int utf_16 = 25;
     constexpr int utf_8 = 26;
+    constexpr int gb_2312_set = 29;
     if (eci == TextSegment::not_stated)
         eci = all_characters(bytes, read_utf8) ? utf_8 : plausible_shift_jis(bytes) ? shift_jis : 3;
+    if (eci == gb_2312_set) return writer.put_all(bytes, read_gb_2312);
     if (eci == shift_jis) return writer.put_all(bytes, read_shift_jis);
     if (eci == utf_16) return writer.put_all(bytes, read_utf16);
     if (eci == utf_8) return writer.put_all(bytes, read_utf8);
