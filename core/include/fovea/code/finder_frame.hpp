@@ -37,10 +37,9 @@ public:
                  Place towards_v) {
         image_ = image;
         centre_ = centre;
-        for (int round = 0; round < 2; ++round) {
-            if (!measure_axis(towards_u, module, u_) || !measure_axis(towards_v, module, v_)) return false;
-            if (round == 0 && !recentre()) break;
-        }
+        if (!measure_axis(towards_u, module, u_) || !measure_axis(towards_v, module, v_)) return false;
+        // The second time along its own sides.
+        if (measure_edges()) measure_edges();
         return true;
     }
 
@@ -53,30 +52,39 @@ public:
     }
     /// The outer edge on the side of a way, u() or v() or against one of them. False where it is not seen.
     bool edge(Place outward, Place along, PlaceLine& line) const {
-        std::int64_t sum_t = 0, sum_s = 0, sum_tt = 0, sum_ts = 0, count = 0;
-        std::int64_t seen[2 * reach + 1] = {};
-        bool valid[2 * reach + 1] = {};
+        Crossing seen[lines];
+        int count = 0;
         for (int t = -reach; t <= reach; ++t) {
             // Seven lines, 0.9 modules apart.
-            const Place start = centre_ + along * (t * 9) / 10;
-            valid[t + reach] = crossing(start, outward, seen[t + reach]);
+            seen[count].t = t;
+            if (crossing(centre_ + along * (t * 9) / 10, outward, seen[count].s)) ++count;
         }
-        const std::int64_t middle = median_of(seen, valid);
-        if (middle < 0) return false;
-        for (int t = -reach; t <= reach; ++t) {
-            const std::int64_t s = seen[t + reach];
-            // A third of a module beside the others is damage or another code's print.
-            if (!valid[t + reach] || magnitude(s - middle) > 85) continue;
-            sum_t += t;
-            sum_s += s;
-            sum_tt += t * t;
-            sum_ts += t * s;
-            ++count;
+        // The straight line through two of them that most agree with: others see damage or other print.
+        int best = 3;
+        Crossing from, to;
+        for (int i = 0; i < count; ++i) {
+            for (int j = i + 2; j < count; ++j) {
+                const int agreeing = agree(seen, count, seen[i], seen[j]);
+                if (agreeing <= best) continue;
+                best = agreeing;
+                from = seen[i];
+                to = seen[j];
+            }
         }
-        const std::int64_t spread = count * sum_tt - sum_t * sum_t;
-        if (count < 4 || spread == 0) return false;
-        // s = offset + slope t, both in 1/256 module, times spread.
-        const std::int64_t slope = count * sum_ts - sum_t * sum_s;
+        if (best == 3) return false;
+        std::int64_t sum_t = 0, sum_s = 0, sum_tt = 0, sum_ts = 0, used = 0;
+        for (int i = 0; i < count; ++i) {
+            if (!agrees(seen[i], from, to)) continue;
+            sum_t += seen[i].t;
+            sum_s += seen[i].s;
+            sum_tt += seen[i].t * seen[i].t;
+            sum_ts += seen[i].t * seen[i].s;
+            ++used;
+        }
+        // s = offset + slope t by least squares, both in 1/256 module, times spread; spread is not 0, as no two
+        // of four or more t are equal.
+        const std::int64_t spread = used * sum_tt - sum_t * sum_t;
+        const std::int64_t slope = used * sum_ts - sum_t * sum_s;
         const std::int64_t offset = sum_s * sum_tt - sum_t * sum_ts;
         const auto place = [&](std::int64_t t) {
             return centre_ + along * (t * 9) / 10 + outward * ((offset + slope * t) / spread) / 256;
@@ -88,18 +96,22 @@ public:
 private:
     static constexpr int reach = 3;
 
-    /// The median of what is valid, or -1 if less than four are.
-    static std::int64_t median_of(const std::int64_t (&seen)[2 * reach + 1],
-                                  const bool (&valid)[2 * reach + 1]) {
-        std::int64_t sorted[2 * reach + 1] = {};
-        int count = 0;
-        for (int i = 0; i <= 2 * reach; ++i) {
-            if (!valid[i]) continue;
-            int j = count++;
-            for (; j > 0 && sorted[j - 1] > seen[i]; --j) sorted[j] = sorted[j - 1];
-            sorted[j] = seen[i];
-        }
-        return count < 4 ? -1 : sorted[count / 2];
+    static constexpr int lines = 2 * reach + 1;
+
+    /// Where line t crosses the edge, in 1/256 module outward.
+    struct Crossing {
+        std::int64_t t = 0;
+        std::int64_t s = 0;
+    };
+    /// Within a fifth of a module of the line through two.
+    static bool agrees(Crossing c, Crossing from, Crossing to) {
+        const std::int64_t off = (c.s - from.s) * (to.t - from.t) - (to.s - from.s) * (c.t - from.t);
+        return off <= 51 * (to.t - from.t) && -off <= 51 * (to.t - from.t);
+    }
+    static int agree(const Crossing (&seen)[lines], int count, Crossing from, Crossing to) {
+        int agreeing = 0;
+        for (int i = 0; i < count; ++i) agreeing += agrees(seen[i], from, to) ? 1 : 0;
+        return agreeing;
     }
     /// How far the outer edge is from the centre along a way of a known length, in 1/256 px; 0 if there is none
     /// within seven modules. Where it is farther than the inner edge of the ring allows, or not there, that one
@@ -128,8 +140,8 @@ private:
         axis = towards * (forward + back) / (7 * way);
         return true;
     }
-    /// Takes the middle of the four edges for the centre. False if they are not all seen or tell another place.
-    bool recentre() {
+    /// Takes centre and ways from the four edges. False if they are not all seen or tell another place.
+    bool measure_edges() {
         PlaceLine right, left, below, above;
         if (!edge(u_, v_, right) || !edge(u_ * -1, v_, left) || !edge(v_, u_, below) ||
             !edge(v_ * -1, u_, above))
@@ -140,8 +152,14 @@ private:
             return false;
         Place middle;
         if (!meet({corner[0], corner[2]}, {corner[1], corner[3]}, middle)) return false;
-        if (length(middle - centre_) * 4 > 3 * maximum(length(u_), length(v_))) return false;
+        const std::int64_t module = maximum(length(u_), length(v_));
+        if (length(middle - centre_) * 4 > 3 * module) return false;
+        const Place u = (corner[1] - corner[0] + corner[2] - corner[3]) / 14;
+        const Place v = (corner[3] - corner[0] + corner[2] - corner[1]) / 14;
+        if (length(u - u_) * 2 > module || length(v - v_) * 2 > module) return false;
         centre_ = middle;
+        u_ = u;
+        v_ = v;
         return true;
     }
     /// Where a line outward from a place beside the centre leaves the dark ring, in 1/256 of outward.
@@ -151,12 +169,14 @@ private:
         constexpr std::int64_t step = 48;
         std::int64_t inner = ring;
         std::int64_t outer = ring;
-        if (dark(ring)) {
-            for (outer += step; dark(outer); outer += step)
+        // A slanting ring may begin farther out.
+        while (!dark(inner) && inner < ring + 192) inner += step;
+        if (dark(inner)) {
+            for (outer = inner + step; dark(outer); outer += step)
                 if (outer > 5 * 256) return false;
             inner = outer - step;
         } else {
-            for (inner -= step; !dark(inner); inner -= step)
+            for (inner = ring - step; !dark(inner); inner -= step)
                 if (inner < 2 * 256) return false;
             outer = inner + step;
         }
