@@ -16,7 +16,7 @@ namespace fovea::detail {
 
 struct FinderPattern {
     Place centre;             ///< 1/256 px
-    std::int64_t module = 0;  ///< 1/256 px: a seventh of what it measures across and down, in the mean
+    std::int64_t module = 0;  ///< 1/256 px, about
     bool inverted = false;    ///< light where others are dark
     int lines = 1;            ///< rows that crossed it
     int rings = 0;            ///< places around its centre that are as they must be, 0 to most_finder_rings
@@ -178,32 +178,37 @@ private:
         if (!again.complete || !again.runs.fits(cross_slack)) return;
         const int centre_x = x + floor_divide(again.twice_centre + 1, 2);
         int diagonals = 0;
+        int steps = 0;
         for (const int turn : {-1, 1}) {
             const CrossRuns diagonal =
                 cross_runs(image, centre_x, centre_y, turn, 1, maximum(across, height));
-            if (diagonal.complete && diagonal.runs.fits(diagonal_slack)) ++diagonals;
+            if (!diagonal.complete || !diagonal.runs.fits(diagonal_slack)) continue;
+            ++diagonals;
+            steps += diagonal.runs.total();
         }
         if (diagonals == 0) return;
+        // Rows and columns cross a pattern that is turned by an eighth from corner to corner; then the diagonals,
+        // whose steps are 1.414 px, tell its sides. In 1/256, 362 for that root.
+        const int width = again.runs.total();
+        const std::int64_t turned = minimum<std::int64_t>(
+            256, std::int64_t{362} * 2 * steps / (std::int64_t{width} + height) / diagonals);
         FinderPattern found;
-        found.rings = rings(
-            image,
-            {std::int64_t{2 * x + again.twice_centre} * 128, std::int64_t{2 * y + down.twice_centre} * 128},
-            again.runs.total(), height);
-        if (found.rings < least_rings) return;
         found.centre = {std::int64_t{2 * x + again.twice_centre} * 128,
                         std::int64_t{2 * y + down.twice_centre} * 128};
-        found.module = std::int64_t{again.runs.total() + height} * 128 / 7;
+        found.rings = rings(image, found.centre, width * turned / 256, height * turned / 256);
+        if (found.rings < least_rings) return;
+        found.module = (std::int64_t{width} + height) * turned / 14;
         found.inverted = image.inverted;
         if (patterns_.push(found) != Status::ok) replace_weakest(found);
     }
     /// A circle of 2.3 modules is in the light ring in every direction of the sides, one of 1.2 in the dark
     /// middle. Sines of sixteenths of a turn, in 1/256.
-    static int rings(const FinderImage& image, Place centre, int width, int height) {
+    static int rings(const FinderImage& image, Place centre, std::int64_t width, std::int64_t height) {
         constexpr int sine[20] = {0,    98,   181,  237,  256,  237, 181, 98, 0,   -98,
                                   -181, -237, -256, -237, -181, -98, 0,   98, 181, 237};
         int right = 0;
         for (int i = 0; i < 16; ++i) {
-            const Place way{std::int64_t{sine[i + 4]} * width, std::int64_t{sine[i]} * height};
+            const Place way{sine[i + 4] * width, sine[i] * height};
             right += image.dark(centre + way * 23 / 70) ? 0 : 1;
             if (i % 2 == 0) right += image.dark(centre + way * 12 / 70) ? 1 : 0;
         }
