@@ -59,7 +59,7 @@ private:
         if (patterns_[b].inverted != first.inverted || patterns_[c].inverted != first.inverted) return;
         const std::int64_t small = minimum(first.module, minimum(patterns_[b].module, patterns_[c].module));
         const std::int64_t large = maximum(first.module, maximum(patterns_[b].module, patterns_[c].module));
-        if (large > 2 * small) return;
+        if (large > 3 * small) return;
         // The corner is opposite of the longest side.
         const std::int64_t ab = squared(a, b);
         const std::int64_t bc = squared(b, c);

@@ -21,6 +21,7 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/pixelwise/bits.hpp>
+#include <fovea/segment/adaptive_threshold.hpp>
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/warp/halve_row.hpp>
 
@@ -62,12 +63,17 @@ namespace detail {
 
 class QrReader {
 public:
+    static constexpr std::int64_t threshold_scratch(Size size) {
+        const std::int64_t narrow = arena_bytes<std::uint8_t>(adaptive_threshold_scratch(size, narrow_side)) +
+                                    arena_bytes<Gray8>(std::int64_t{size.width} * band_rows);
+        return maximum(maximum(local_threshold_scratch(size, finest_block), arena_bytes<Histogram>(1)),
+                       narrow);
+    }
     static constexpr std::int64_t scratch(Size size) {
         const Size half{size.width / 2, size.height / 2};
-        std::int64_t threshold = local_threshold_scratch(size, 4);
-        threshold = maximum(threshold, arena_bytes<Histogram>(1));
-        return arena_bytes<BitWord>(std::int64_t{bit_words(size.width)} * size.height) + threshold +
-               arena_bytes<Gray8>(half.area()) + arena_bytes<FinderPattern>(max_finder_patterns) +
+        return arena_bytes<BitWord>(std::int64_t{bit_words(size.width)} * size.height) +
+               arena_bytes<std::uint8_t>(threshold_scratch(size)) + arena_bytes<Gray8>(half.area()) +
+               arena_bytes<FinderPattern>(max_finder_patterns) +
                arena_bytes<BitWord>(std::int64_t{bit_words(max_qr_size)} * max_qr_size) +
                GrayModules::scratch() + qr_decode_scratch();
     }
@@ -77,8 +83,7 @@ public:
         : full_(src), options_(options), text_(text), codes_(codes), first_(codes.size()), arena_(scratch) {
         const Size size = src.size();
         bit_room_ = arena_.take<BitWord>(std::int64_t{bit_words(size.width)} * size.height);
-        threshold_room_ = arena_.take_unset<std::uint8_t>(
-            maximum(local_threshold_scratch(size, 4), arena_bytes<Histogram>(1)));
+        threshold_room_ = arena_.take_unset<std::uint8_t>(threshold_scratch(size));
         half_room_ = arena_.take_unset<Gray8>(Size{size.width / 2, size.height / 2}.area());
         pattern_room_ = arena_.take<FinderPattern>(max_finder_patterns);
         module_room_ = arena_.take<BitWord>(std::int64_t{bit_words(max_qr_size)} * max_qr_size);
@@ -92,16 +97,18 @@ public:
         if (options_.effort == QrReadOptions::Effort::quick) return result();
         if (pass(full_, tiny ? Threshold::fine : Threshold::global)) return result();
         if (pass(full_, Threshold::coarse)) return result();
+        if (pass(full_, Threshold::narrow)) return result();
         if (full_.width() >= 2 * tiny_side && full_.height() >= 2 * tiny_side) {
             halve();
             if (pass(half_, Threshold::fine)) return result();
-            static_cast<void>(pass(half_, Threshold::global));
+            if (pass(half_, Threshold::global)) return result();
+            static_cast<void>(pass(half_, Threshold::narrow));
         }
         return result();
     }
 
 private:
-    enum class Threshold : std::uint8_t { fine, global, coarse };
+    enum class Threshold : std::uint8_t { fine, global, coarse, narrow };
 
     Status result() const {
         if (status_ != Status::ok) return status_;
@@ -134,9 +141,34 @@ private:
             if (pack_bits(image_, *level, bits_) != Status::ok) return false;
             return invert(bits_, bits_) == Status::ok;
         }
+        if (threshold == Threshold::narrow) return narrow_means();
         LocalThresholdOptions options;
         if (threshold == Threshold::coarse) options.block = 24;
         return local_threshold(image_, options, threshold_room_, bits_) == Status::ok;
+    }
+    /// Against the mean of a window that is about as wide as the finder pattern of a small symbol: brings out
+    /// the rings that a blur has filled. In bands, so that the bytes of a whole image are not needed.
+    bool narrow_means() {
+        const int width = image_.width();
+        const int height = image_.height();
+        Arena arena(threshold_room_);
+        const Span<std::uint8_t> room =
+            arena.take_unset<std::uint8_t>(adaptive_threshold_scratch(image_.size(), narrow_side));
+        const Span<Gray8> pixels = arena.take_unset<Gray8>(std::int64_t{width} * band_rows);
+        for (int y = 0; y < height; y += band_rows - 2 * narrow_reach) {
+            const int top = maximum(y - narrow_reach, 0);
+            const int bottom = minimum(y + band_rows - narrow_reach, height);
+            const ImageView<const Gray8> rows(image_.row(top), {width, bottom - top}, image_.stride_bytes());
+            const ImageView<Gray8> marks(pixels.data(), rows.size(), width);
+            if (adaptive_threshold_inverse(rows, narrow_side, 1, room, marks) != Status::ok) return false;
+            const int end = minimum(bottom == height ? height : bottom - narrow_reach, height);
+            const ImageView<const Gray8> own(marks.row(y - top), {width, end - y}, width);
+            if (pack_bits(own, BitView<BitWord>(bits_.row(y), own.size(), bits_.stride_words())) !=
+                Status::ok)
+                return false;
+            if (end == height) break;
+        }
+        return true;
     }
     void halve() {
         const Size size{full_.width() / 2, full_.height() / 2};
@@ -211,6 +243,10 @@ private:
     }
 
     static constexpr int tiny_side = 64;
+    static constexpr int finest_block = 8;
+    static constexpr int narrow_side = 15;
+    static constexpr int narrow_reach = narrow_side / 2;
+    static constexpr int band_rows = 64;
     static constexpr int least_fit = 650;
     static constexpr int refined_fit = 750;
 
