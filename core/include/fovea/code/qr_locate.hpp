@@ -130,6 +130,37 @@ public:
         }
         return best;
     }
+    /// Moves the corner that has no finder while that makes the modules near it more even: the patterns hardly
+    /// tell where it is.
+    void settle(int size, ModulePlane& plane) const {
+        const Place modules[4] = {module_corner(0, 0), module_corner(size, 0), module_corner(size, size),
+                                  module_corner(0, size)};
+        Place places[4];
+        for (int i = 0; i < 4; ++i) places[i] = plane(modules[i]);
+        int best = evenness(plane, size);
+        const std::int64_t module = maximum(length(frame_[0].u()), length(frame_[0].v()));
+        for (std::int64_t step = module; step >= module / 4; step /= 2) {
+            bool moved = true;
+            for (int round = 0; round < 6 && moved; ++round) {
+                moved = false;
+                for (int i = 0; i < 8; ++i) {
+                    constexpr int way[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
+                                               {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+                    const Place before = places[2];
+                    places[2] = before + Place{way[i][0] * step, way[i][1] * step};
+                    const Result<ModulePlane> other = ModulePlane::through(modules, places);
+                    const int points = other ? evenness(*other, size) : 0;
+                    if (points > best) {
+                        best = points;
+                        plane = *other;
+                        moved = true;
+                    } else {
+                        places[2] = before;
+                    }
+                }
+            }
+        }
+    }
     /// The plane with the departures of all alignment patterns that are found.
     void find_grid(int size, const ModulePlane& plane, QrGrid& grid) const {
         grid.plane = plane;
@@ -192,6 +223,24 @@ public:
 
 private:
     static constexpr bool ring_dark(int x, int y) { return maximum(x < 0 ? -x : x, y < 0 ? -y : y) != 1; }
+    /// How many places beside the middles of modules have the colour of the middle, in the quarter opposite of
+    /// the corner finder.
+    int evenness(const ModulePlane& plane, int size) const {
+        const int stride = size / 40 + 1;
+        int even = 0;
+        for (int y = size / 2; y < size; y += stride) {
+            for (int x = size / 2; x < size; x += stride) {
+                const Place middle = module_centre(x, y);
+                const bool dark = image_.dark(plane(middle));
+                constexpr std::int64_t away = module_units * 3 / 8;
+                even += image_.dark(plane(middle + Place{away, away})) == dark ? 1 : 0;
+                even += image_.dark(plane(middle + Place{-away, away})) == dark ? 1 : 0;
+                even += image_.dark(plane(middle + Place{away, -away})) == dark ? 1 : 0;
+                even += image_.dark(plane(middle + Place{-away, -away})) == dark ? 1 : 0;
+            }
+        }
+        return even;
+    }
     /// From the lengths between finders, and from the modules counted along the timing patterns.
     void estimate_sizes() {
         const std::int64_t across = length(frame_[1].centre() - frame_[0].centre());

@@ -189,7 +189,11 @@ private:
                 if (try_plane(locator, image, size, locator.plane(k), false)) return true;
             }
             ModulePlane plane = locator.plane(0);
-            if (locator.refine(size, plane) < refined_fit) continue;
+            const int fit = locator.refine(size, plane);
+            if (fit < refined_fit) continue;
+            if (try_plane(locator, image, size, plane, true)) return true;
+            if (fit < settled_fit) continue;
+            locator.settle(size, plane);
             if (try_plane(locator, image, size, plane, true)) return true;
         }
         return false;
@@ -249,6 +253,7 @@ private:
     static constexpr int band_rows = 64;
     static constexpr int least_fit = 650;
     static constexpr int refined_fit = 750;
+    static constexpr int settled_fit = 850;
 
     ImageView<const Gray8> full_;
     QrReadOptions options_;
