@@ -122,7 +122,7 @@ private:
         int pattern_count = 0;
         const ListView<FinderPattern> patterns(pattern_room_.data(), max_finder_patterns, &pattern_count);
         FinderSearch search(bits_, patterns);
-        search.rows(0, 1);
+        search.rows(image.height() > tall ? 1 : 0, image.height() > tall ? 2 : 1);
         FinderTriples triples(patterns);
         for (int i = 0; i < triples.size() && status_ == Status::ok && !enough(); ++i) {
             if (triples.usable(i) && try_triple(triples.corner(i), triples.right(i), triples.below(i)))
@@ -247,6 +247,7 @@ private:
     }
 
     static constexpr int tiny_side = 64;
+    static constexpr int tall = 200;  ///< px, from which on every other row is looked at
     static constexpr int finest_block = 8;
     static constexpr int narrow_side = 15;
     static constexpr int narrow_reach = narrow_side / 2;
