@@ -75,6 +75,8 @@ public:
             at(x, y) = static_cast<std::int16_t>(brightness(image, place) >> 4);
         });
     }
+    /// In 1/16 level.
+    int level(int x, int y) const { return at(x, y); }
     /// sharpen in 1/8: how much of a module's difference from its four neighbours is added to it, against the
     /// light that a blur carries over.
     void decide(int sharpen, bool inverted, BitView<BitWord> modules) const {

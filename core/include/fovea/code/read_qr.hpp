@@ -15,6 +15,7 @@
 #include <fovea/code/finder_triples.hpp>
 #include <fovea/code/local_threshold.hpp>
 #include <fovea/code/qr_decode.hpp>
+#include <fovea/code/qr_grade.hpp>
 #include <fovea/code/qr_locate.hpp>
 #include <fovea/code/qr_sample.hpp>
 #include <fovea/image/bit_view.hpp>
@@ -44,7 +45,7 @@ struct QrReadOptions {
 constexpr std::int64_t read_qr_scratch(Size size);
 
 /// Reads the QR codes of an image, in any direction, in perspective, dark on light or light on dark, mirrored
-/// or not. Their texts are appended to text and they to codes, in the order of their rows.
+/// or not. Their texts are appended to text and they to codes, those of the clearest finders first.
 ///
 /// Shapes   src 1x1 or larger; modules of a pixel and more
 /// Time     bounded by the pixels, and by 24 finder patterns and 16 tries of three of them for each threshold
@@ -236,7 +237,11 @@ private:
             // A mirrored symbol is read down where others are read across.
             code.corners[symbol->mirrored ? (4 - i) % 4 : i] = corner_of(grid.plane(corners[i]));
         }
+        GrayModules levels(gray_room_);
+        levels.sample(image_, grid, size);
+        code.grade = QrGrader(image_, grid.plane, levels, *symbol, inverted).grade(decode_room_);
         status_ = codes_.push(code);
+        if (status_ != Status::ok) text_.shrink(first);
         return true;
     }
     /// At half the size pixel x lies between 2x and 2x + 1.
