@@ -108,7 +108,7 @@ TEST(QrEncode, MixedTextsAreReadBackInFewBits) {
     }
 }
 
-// Annex J: "ABCDE123456789": digits of their own are shorter from 13 after the 45 characters on in small symbols.
+// A change of mode costs a header of 12 to 14 bits, which digits and the 45 characters must save.
 TEST(QrEncode, ChangesModesWhereThatIsShorter) {
     const auto modes = [](const std::string& text, int version) {
         Bytes bytes = bytes_of(text);

@@ -121,8 +121,8 @@ TYPED_TEST(ReedSolomonOf, LeavesAloneWhatItCannotMend) {
     EXPECT_GT(refused, 1950);
 }
 
-// Two codewords differ in 11 places. Up to six errors leave at least five to any other codeword; with a reserve
-// of two only four are mended, so none of these blocks is mended wrongly.
+// Two codewords differ in 11 places. Up to six errors leave at least five to any other codeword; with a
+// reserve of two only four are mended, so none of these blocks is mended wrongly.
 TYPED_TEST(ReedSolomonOf, AReserveRefusesWhatIsTooFarFromACodeword) {
     Random random(104);
     for (int round = 0; round < 500; ++round) {

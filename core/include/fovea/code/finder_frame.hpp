@@ -81,8 +81,8 @@ public:
             sum_ts += seen[i].t * seen[i].s;
             ++used;
         }
-        // s = offset + slope t by least squares, both in 1/256 module, times spread; spread is not 0, as no two
-        // of four or more t are equal.
+        // s = offset + slope t by least squares, both in 1/256 module, times spread; spread is not 0, as no
+        // two of four or more t are equal.
         const std::int64_t spread = used * sum_tt - sum_t * sum_t;
         const std::int64_t slope = used * sum_ts - sum_t * sum_s;
         const std::int64_t offset = sum_s * sum_tt - sum_t * sum_ts;
@@ -113,9 +113,9 @@ private:
         for (int i = 0; i < count; ++i) agreeing += agrees(seen[i], from, to) ? 1 : 0;
         return agreeing;
     }
-    /// How far the outer edge is from the centre along a way of a known length, in 1/256 px; 0 if there is none
-    /// within seven modules. Where it is farther than the inner edge of the ring allows, or not there, that one
-    /// tells.
+    /// How far the outer edge is from the centre along a way of a known length, in 1/256 px; 0 if there is
+    /// none within seven modules. Where it is farther than the inner edge of the ring allows, or not there,
+    /// that one tells.
     std::int64_t extent(Place way, std::int64_t way_length, std::int64_t module) const {
         const std::int64_t step = maximum<std::int64_t>(module / 8, 48);
         bool dark = true;

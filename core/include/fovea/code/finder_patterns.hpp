@@ -187,8 +187,8 @@ private:
             steps += diagonal.runs.total();
         }
         if (diagonals == 0) return;
-        // Rows and columns cross a pattern that is turned by an eighth from corner to corner; then the diagonals,
-        // whose steps are 1.414 px, tell its sides. In 1/256, 362 for that root.
+        // Rows and columns cross a pattern that is turned by an eighth from corner to corner; then the
+        // diagonals, whose steps are 1.414 px, tell its sides. In 1/256, 362 for that root.
         const int width = again.runs.total();
         const std::int64_t turned = minimum<std::int64_t>(
             256, std::int64_t{362} * 2 * steps / (std::int64_t{width} + height) / diagonals);

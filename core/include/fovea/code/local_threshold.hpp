@@ -38,8 +38,8 @@ inline namespace FOVEA_ISA {
 ///           the mean of its neighbours above and left, or else below and right; the threshold of a block is
 ///           the mean of the middles of the 5x5 around it, up, those outside of the image left out
 /// Scratch   local_threshold_scratch(src.size(), block) bytes, undefined afterwards
-/// Errors    empty_image, size_mismatch, bad_argument, scratch_too_small; not_found, with dst untouched, where
-///           no block has contrast
+/// Errors    empty_image, size_mismatch, bad_argument, scratch_too_small; not_found, with dst untouched,
+///           where no block has contrast
 /// Source    the idea of blocks and their neighbours is that of the hybrid binarizer of ZXing; the middle
 ///           instead of the mean does not mind how much of a block is print
 inline Status local_threshold(ImageView<const Gray8> src, const LocalThresholdOptions& options,

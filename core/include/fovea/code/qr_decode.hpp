@@ -31,8 +31,8 @@ struct QrSymbol {
     QrStructuredAppend append;
 };
 
-/// Scratch bytes that qr_decode() needs for symbols of up to that version: the codewords as they are read, and
-/// the data.
+/// Scratch bytes that qr_decode() needs for symbols of up to that version: the codewords as they are read,
+/// and the data.
 constexpr std::int64_t qr_decode_scratch(int version = max_qr_version) {
     return 2 * arena_bytes<std::uint8_t>(detail::qr_codewords(version));
 }

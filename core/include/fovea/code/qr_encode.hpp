@@ -41,8 +41,8 @@ constexpr std::int64_t qr_encode_scratch(std::int64_t text_size) {
 /// Writes a text as the smallest symbol that holds it, dark modules set, without a quiet zone, which is to be
 /// four modules wide. Answers the symbol: the upper left corner of room.
 ///
-/// Shapes   room of at least the symbol's size; max_qr_size always is enough. What is outside of the symbol is
-///          left as it is
+/// Shapes   room of at least the symbol's size; max_qr_size always is enough. What is outside of the symbol
+///          is left as it is
 /// Scratch  qr_encode_scratch(text.size()) bytes, undefined afterwards
 /// Errors   bad_argument for an option out of range or a text longer than max_qr_text; scratch_too_small;
 ///          capacity_exceeded for a text that no version holds at this level; buffer_too_small for a room

@@ -32,7 +32,8 @@ constexpr std::int8_t grade_of(int value, int four, int three, int two, int one)
 ///
 /// Source  ISO/IEC 15415, 7.8: contrast against the 255 levels of the image instead of a calibrated white;
 ///         modulation by the middle of each module, and without knowing which codewords were mended. The
-///         quiet zone by how many of its four modules are light all around: those outside of the image are not
+///         quiet zone by how many of its four modules are light all around: those outside of the image are
+///         not
 class QrGrader {
 public:
     QrGrader(ImageView<const Gray8> image, const ModulePlane& plane, const GrayModules& levels,
@@ -72,8 +73,8 @@ private:
         const int contrast = maximum(high_ - low_, 1);
         return (twice_off < 0 ? -twice_off : twice_off) * 100 / contrast;
     }
-    /// The best level of which the codewords that miss it are few enough: as erasures they leave so much unused
-    /// correction that its grade is no lower.
+    /// The best level of which the codewords that miss it are few enough: as erasures they leave so much
+    /// unused correction that its grade is no lower.
     std::int8_t modulation(Span<std::uint8_t> room) const {
         const Span<std::uint8_t> least = room.first(qr_codewords(symbol_.version));
         for (std::uint8_t& value : least) value = 100;
@@ -121,8 +122,9 @@ private:
         return rings;
     }
     bool light(Place place) const {
-        if (place.x < 0 || place.y < 0 || place.x > std::int64_t{image_.width() - 1} * 256 ||
-            place.y > std::int64_t{image_.height() - 1} * 256)
+        const Place last = pixel_place(image_.width() - 1, image_.height() - 1);
+        // Pixels reach half a pixel beyond their centres.
+        if (place.x < -128 || place.y < -128 || place.x > last.x + 128 || place.y > last.y + 128)
             return false;
         const bool bright = brightness(image_, place) / 8 > low_ + high_;
         return bright != inverted_;

@@ -130,8 +130,8 @@ public:
         }
         return best;
     }
-    /// Moves the corner that has no finder while that makes the modules near it more even: the patterns hardly
-    /// tell where it is.
+    /// Moves the corner that has no finder while that makes the modules near it more even: the patterns
+    /// hardly tell where it is.
     void settle(int size, ModulePlane& plane) const {
         const Place modules[4] = {module_corner(0, 0), module_corner(size, 0), module_corner(size, size),
                                   module_corner(0, size)};
@@ -223,8 +223,8 @@ public:
 
 private:
     static constexpr bool ring_dark(int x, int y) { return maximum(x < 0 ? -x : x, y < 0 ? -y : y) != 1; }
-    /// How many places beside the middles of modules have the colour of the middle, in the quarter opposite of
-    /// the corner finder.
+    /// How many places beside the middles of modules have the colour of the middle, in the quarter opposite
+    /// of the corner finder.
     int evenness(const ModulePlane& plane, int size) const {
         const int stride = size / 40 + 1;
         int even = 0;
@@ -321,8 +321,8 @@ private:
         const Result<ModulePlane> plane = ModulePlane::through(modules, places);
         if (plane && planes_ < max_planes) plane_[planes_++] = *plane;
     }
-    /// Looks for an alignment pattern around a place, within so many modules each way, and answers the middle of
-    /// the places where it fits best.
+    /// Looks for an alignment pattern around a place, within so many modules each way, and answers the middle
+    /// of the places where it fits best.
     bool find_alignment(const ModulePlane& plane, Place module, Place near, int reach, Place& found) const {
         // The plane is flat enough over five modules.
         const Place u =

@@ -38,9 +38,9 @@ constexpr int qr_eci_bits(int eci) {
 }
 
 /// The modes of a text, the cheapest for the versions of a class: ways has as many bytes as text, and says of
-/// every byte in bits 2m and 2m+1 from which mode one comes that writes it in mode m, and in bits 6 and 7, when
-/// all is done, the mode. Costs are in sixths of a bit, as ten bits are three digits and eleven two characters;
-/// at most 2^13 bytes cost below 2^20.
+/// every byte in bits 2m and 2m+1 from which mode one comes that writes it in mode m, and in bits 6 and 7,
+/// when all is done, the mode. Costs are in sixths of a bit, as ten bits are three digits and eleven two
+/// characters; at most 2^13 bytes cost below 2^20.
 class QrSegmentation {
 public:
     QrSegmentation(Span<const std::uint8_t> text, Span<std::uint8_t> ways, int version)

@@ -176,8 +176,8 @@ private:
         }
         return true;
     }
-    /// Thirteen bits a character: 0x8140..0x9FFC and 0xE040..0xEBBF as the lead and trail of base 0xC0. Clause
-    /// 7.4.6.
+    /// Thirteen bits a character: 0x8140..0x9FFC and 0xE040..0xEBBF as the lead and trail of base 0xC0.
+    /// Clause 7.4.6.
     Status kanji(int count) {
         if (bits_.left() < 13 * std::int64_t{count}) return Status::malformed;
         if (count == 0) return Status::ok;
@@ -194,8 +194,8 @@ private:
         }
         return Status::ok;
     }
-    /// Chinese characters in thirteen bits each, in rows of base 0x60 that begin at 0xA1A1 and 0xB0A1, after a
-    /// number of the set, of which there is one. GB/T 18284, 6.4.6.
+    /// Chinese characters in thirteen bits each, in rows of base 0x60 that begin at 0xA1A1 and 0xB0A1, after
+    /// a number of the set, of which there is one. GB/T 18284, 6.4.6.
     Status hanzi() {
         const int count_bits = qr_count_bits_of(QrMode::kanji, version_);
         if (bits_.left() < 4 + count_bits) return Status::malformed;

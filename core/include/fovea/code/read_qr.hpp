@@ -53,8 +53,8 @@ constexpr std::int64_t read_qr_scratch(Size size);
 /// Errors   empty_image; bad_argument; scratch_too_small; not_found; buffer_too_small where a text that was
 ///          read does not fit; capacity_exceeded where the list is full, with what it holds
 /// Source   finder patterns as ISO/IEC 18004, clause 12 b), tells; then the plane through their centres and
-///          the meeting of their outer edges or the alignment pattern, moved until the patterns that are known
-///          fit best
+///          the meeting of their outer edges or the alignment pattern, moved until the patterns that are
+///          known fit best
 inline Status read_qr(ImageView<const Gray8> src, const QrReadOptions& options, Span<std::uint8_t> scratch,
                       CodeText& text, ListView<Code> codes);
 

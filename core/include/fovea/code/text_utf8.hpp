@@ -22,13 +22,13 @@ constexpr std::int64_t text_utf8_room(std::int64_t size) { return 3 * size; }
 /// characters stay what they are.
 ///
 /// Units   interpretations 0 to 13 and 15 to 18 (code page 437, parts of ISO/IEC 8859), 20 (Shift JIS), 21 to
-///         24 (Windows), 25 (UTF-16BE), 26 (UTF-8), 27 and 170 (ASCII), 29 (GB 2312), 899 (bytes, as ISO/IEC 8859-1).
-///         Bytes that are no character become U+FFFD. Where nothing is stated: UTF-8 if it is, or else Shift
-///         JIS if that is plausible, or else ISO/IEC 8859-1
+///         24 (Windows), 25 (UTF-16BE), 26 (UTF-8), 27 and 170 (ASCII), 29 (GB 2312), 899 (bytes, as ISO/IEC
+///         8859-1). Bytes that are no character become U+FFFD. Where nothing is stated: UTF-8 if it is, or
+///         else Shift JIS if that is plausible, or else ISO/IEC 8859-1
 /// Errors  out_of_range for a part that is not within the text; unsupported for another interpretation;
 ///         buffer_too_small. What was written then has no meaning
-/// Source  AIM ITS/04-023. The guess: many encoders write UTF-8 or Shift JIS without a word. Japanese text has
-///         characters that begin with 0x81 to 0x9F, which are no letters of Europe, or rows of kana
+/// Source  AIM ITS/04-023. The guess: many encoders write UTF-8 or Shift JIS without a word. Japanese text
+///         has characters that begin with 0x81 to 0x9F, which are no letters of Europe, or rows of kana
 inline Result<int> text_utf8(const CodeText& text, int first, int size, Span<std::uint8_t> utf8);
 
 // ---- Implementation ---------------------------------------------------------------
