@@ -63,10 +63,8 @@ inline void sample_bits(const FinderImage& image, const QrGrid& grid, BitView<Bi
 /// Modules by their brightness: each compared with the middle between dark and light of those around.
 class GrayModules {
 public:
-    static constexpr std::int64_t scratch() {
-        return arena_bytes<std::int16_t>(std::int64_t{max_qr_size} * max_qr_size);
-    }
-    explicit GrayModules(Span<std::int16_t> room) : level_(room) {}
+    /// Room for symbols of up to most modules a side.
+    GrayModules(Span<std::int16_t> room, int most) : level_(room), most_(most) {}
 
     /// Brightness in 1/16 level.
     void sample(ImageView<const Gray8> image, const QrGrid& grid, int size) {
@@ -106,9 +104,10 @@ private:
         }
         return (low + high) / 2;
     }
-    std::int16_t& at(int x, int y) const { return level_[std::ptrdiff_t{y} * max_qr_size + x]; }
+    std::int16_t& at(int x, int y) const { return level_[std::ptrdiff_t{y} * most_ + x]; }
 
     Span<std::int16_t> level_;
+    int most_;
     int size_ = 0;
 };
 

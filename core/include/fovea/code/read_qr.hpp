@@ -70,26 +70,40 @@ public:
         return maximum(maximum(local_threshold_scratch(size, finest_block), arena_bytes<Histogram>(1)),
                        narrow);
     }
+    /// The largest symbol of which an image shows every module.
+    static constexpr int most_modules(Size size) {
+        return clamp(minimum(size.width, size.height) + 4, qr_size(min_qr_version), max_qr_size);
+    }
+    static constexpr std::int64_t decode_scratch(Size size) {
+        return qr_decode_scratch((most_modules(size) - 17) / 4);
+    }
     static constexpr std::int64_t scratch(Size size) {
-        const Size half{size.width / 2, size.height / 2};
+        const std::int64_t most = most_modules(size);
         return arena_bytes<BitWord>(std::int64_t{bit_words(size.width)} * size.height) +
-               arena_bytes<std::uint8_t>(threshold_scratch(size)) + arena_bytes<Gray8>(half.area()) +
+               arena_bytes<std::uint8_t>(threshold_scratch(size)) +
+               arena_bytes<Gray8>(Size{size.width / 2, size.height / 2}.area()) +
                arena_bytes<FinderPattern>(max_finder_patterns) +
-               arena_bytes<BitWord>(std::int64_t{bit_words(max_qr_size)} * max_qr_size) +
-               GrayModules::scratch() + qr_decode_scratch();
+               arena_bytes<BitWord>(std::int64_t{bit_words(max_qr_size)} * most) +
+               arena_bytes<std::int16_t>(most * most) + arena_bytes<std::uint8_t>(decode_scratch(size));
     }
 
     QrReader(ImageView<const Gray8> src, const QrReadOptions& options, Span<std::uint8_t> scratch,
              CodeText& text, ListView<Code> codes)
-        : full_(src), options_(options), text_(text), codes_(codes), first_(codes.size()), arena_(scratch) {
+        : full_(src),
+          options_(options),
+          text_(text),
+          codes_(codes),
+          first_(codes.size()),
+          most_(most_modules(src.size())) {
         const Size size = src.size();
-        bit_room_ = arena_.take<BitWord>(std::int64_t{bit_words(size.width)} * size.height);
-        threshold_room_ = arena_.take_unset<std::uint8_t>(threshold_scratch(size));
-        half_room_ = arena_.take_unset<Gray8>(Size{size.width / 2, size.height / 2}.area());
-        pattern_room_ = arena_.take<FinderPattern>(max_finder_patterns);
-        module_room_ = arena_.take<BitWord>(std::int64_t{bit_words(max_qr_size)} * max_qr_size);
-        gray_room_ = arena_.take_unset<std::int16_t>(std::int64_t{max_qr_size} * max_qr_size);
-        decode_room_ = arena_.take_unset<std::uint8_t>(qr_decode_scratch());
+        Arena arena(scratch);
+        bit_room_ = arena.take_unset<BitWord>(std::int64_t{bit_words(size.width)} * size.height);
+        threshold_room_ = arena.take_unset<std::uint8_t>(threshold_scratch(size));
+        half_room_ = arena.take_unset<Gray8>(Size{size.width / 2, size.height / 2}.area());
+        pattern_room_ = arena.take<FinderPattern>(max_finder_patterns);
+        module_room_ = arena.take_unset<BitWord>(std::int64_t{bit_words(max_qr_size)} * most_);
+        gray_room_ = arena.take_unset<std::int16_t>(std::int64_t{most_} * most_);
+        decode_room_ = arena.take_unset<std::uint8_t>(decode_scratch(size));
     }
 
     Status read() {
@@ -184,6 +198,7 @@ private:
         if (!locator.begin(corner, right, below)) return false;
         for (int i = 0; i < locator.sizes(); ++i) {
             const int size = locator.size(i);
+            if (size > most_) continue;
             const int planes = locator.find_planes(size);
             if (planes == 0 || locator.fit(0) < least_fit) continue;
             for (int k = 0; k < planes && locator.fit(k) >= least_fit; ++k) {
@@ -208,7 +223,7 @@ private:
         sample_bits(image, grid, modules);
         if (decode(modules, grid, image.inverted)) return true;
         if (!gray) return false;
-        GrayModules levels(gray_room_);
+        GrayModules levels(gray_room_, most_);
         levels.sample(image_, grid, size);
         for (const int sharpen : {0, 8, 16}) {
             levels.decide(sharpen, image.inverted, modules);
@@ -237,7 +252,7 @@ private:
             // A mirrored symbol is read down where others are read across.
             code.corners[symbol->mirrored ? (4 - i) % 4 : i] = corner_of(grid.plane(corners[i]));
         }
-        GrayModules levels(gray_room_);
+        GrayModules levels(gray_room_, most_);
         levels.sample(image_, grid, size);
         code.grade = QrGrader(image_, grid.plane, levels, *symbol, inverted).grade(decode_room_);
         status_ = codes_.push(code);
@@ -266,7 +281,7 @@ private:
     CodeText& text_;
     ListView<Code> codes_;
     int first_;
-    Arena arena_;
+    int most_;
     Span<BitWord> bit_room_;
     Span<std::uint8_t> threshold_room_;
     Span<Gray8> half_room_;
