@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/code_qr_vectors.hpp>
 #include <golden/codec_vectors.hpp>
 #include <golden/colour_vectors.hpp>
 #include <golden/decision_vectors.hpp>
@@ -114,6 +115,12 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"code/local_threshold", code_local_threshold},
+    {"code/names", code_names},
+    {"code/qr_symbols", code_qr_symbols},
+    {"code/read_qr", code_read_qr},
+    {"code/reed_solomon", code_reed_solomon},
+    {"code/text_utf8", code_text_utf8},
     {"codec/any_picture", codec_any_picture},
     {"codec/bmp", codec_bmp},
     {"codec/encode_bmp", codec_encode_bmp},
