@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include <fovea/base/random.hpp>
@@ -47,10 +48,16 @@ void spoil(Random& random, const Bytes& places, Bytes& block) {
     }
 }
 
+struct NumberedNames {
+    template <class Code>
+    static std::string GetName(int index) {
+        return std::to_string(index);
+    }
+};
 template <class Code>
 class ReedSolomonOf : public testing::Test {};
 using Codes = testing::Types<QrReedSolomon, DataMatrixReedSolomon>;
-TYPED_TEST_SUITE(ReedSolomonOf, Codes);
+TYPED_TEST_SUITE(ReedSolomonOf, Codes, NumberedNames);
 
 // ISO/IEC 18004, annex I: "01234567" in a symbol of version 1-M.
 TEST(ReedSolomon, MakesTheParityOfTheQrStandardsExample) {
