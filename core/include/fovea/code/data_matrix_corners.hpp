@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+//
+// Corners that may be those of a Data Matrix: two straight edges that meet, the dark inside.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/list.hpp>
+#include <fovea/base/order.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/image/bit_view.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/image/pixel.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea::detail {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// A straight piece of a border, between centres of dark pixels, the dark on its right.
+struct BorderPiece {
+    Point first;
+    Point last;
+    int length = 0;
+
+    constexpr std::int64_t x() const { return last.x - first.x; }
+    constexpr std::int64_t y() const { return last.y - first.y; }
+};
+
+/// Two pieces of a border that turn around the dark: into the corner, and out of it.
+struct BorderCorner {
+    BorderPiece in;
+    BorderPiece out;
+    int threshold = 0;  ///< what is below it is dark
+    std::int64_t weight = 0;
+};
+
+/// A gray image, turned about where light modules stand on dark ground. Beyond its sides all is light.
+class CodeField {
+public:
+    CodeField() = default;
+    CodeField(ImageView<const Gray8> image, bool inverted)
+        : image_(image), flip_(inverted ? Gray8{255} : Gray8{0}) {}
+
+    Size size() const { return image_.size(); }
+    bool inverted() const { return flip_ != 0; }
+    const Gray8* row(int y) const { return image_.row(y); }
+    Gray8 flip() const { return flip_; }
+    int pixel(int x, int y) const {
+        if (x < 0 || y < 0 || x >= image_.width() || y >= image_.height()) return 255;
+        return image_.row(y)[x] ^ flip_;
+    }
+    /// Between pixels, in 1/256 px; 1/16 levels: 0 to 4080.
+    int sample(std::int32_t x, std::int32_t y) const {
+        const int left = x >> 8;
+        const int top = y >> 8;
+        const int a = x & 255;
+        const int b = y & 255;
+        int p00;
+        int p10;
+        int p01;
+        int p11;
+        if (left >= 0 && top >= 0 && left + 1 < image_.width() && top + 1 < image_.height()) {
+            const Gray8* upper = image_.row(top) + left;
+            const Gray8* lower = image_.row(top + 1) + left;
+            p00 = upper[0] ^ flip_;
+            p10 = upper[1] ^ flip_;
+            p01 = lower[0] ^ flip_;
+            p11 = lower[1] ^ flip_;
+        } else {
+            p00 = pixel(left, top);
+            p10 = pixel(left + 1, top);
+            p01 = pixel(left, top + 1);
+            p11 = pixel(left + 1, top + 1);
+        }
+        const int upper = p00 * (256 - a) + p10 * a;
+        const int lower = p01 * (256 - a) + p11 * a;
+        return (upper * (256 - b) + lower * b) >> 12;
+    }
+
+private:
+    ImageView<const Gray8> image_;
+    Gray8 flip_ = 0;
+};
+
+/// Which sides of pixels borders have passed: two bits a pixel.
+class PassedSides {
+public:
+    static constexpr std::int64_t words(Size size) {
+        return 2 * std::int64_t{bit_words(size.width)} * size.height;
+    }
+
+    PassedSides(Span<BitWord> words, Size size)
+        : words_(words),
+          left_(words.data(), size, bit_words(size.width)),
+          right_(words.data() + words.size() / 2, size, bit_words(size.width)) {}
+    void clear() const {
+        for (BitWord& word : words_) word = 0;
+    }
+    bool left(int x, int y) const { return left_(x, y); }
+    bool right(int x, int y) const { return right_(x, y); }
+    void pass_left(int x, int y) const { left_.set(x, y, true); }
+    void pass_right(int x, int y) const { right_.set(x, y, true); }
+
+private:
+    Span<BitWord> words_;
+    BitView<BitWord> left_;
+    BitView<BitWord> right_;
+};
+
+/// Splits a walk of points into straight pieces and pairs those that meet.
+class CornerFinder {
+public:
+    /// Pieces shorter than that do not count.
+    static constexpr int shortest = 6;
+
+    CornerFinder(ListView<BorderCorner> corners, int threshold) : corners_(corners), threshold_(threshold) {}
+
+    void begin(Point p) { restart(p); }
+    void add(Point p);
+    void end(bool closed);
+
+private:
+    struct Vector {
+        std::int64_t x;
+        std::int64_t y;
+    };
+    static std::int64_t cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+
+    void restart(Point p) {
+        start_ = p;
+        far_ = p;
+        reach_ = 0;
+        open_ = true;
+    }
+    void finish_piece();
+    void pair(const BorderPiece& in, const BorderPiece& out);
+
+    static constexpr int kept = 4;
+
+    ListView<BorderCorner> corners_;
+    int threshold_;
+    Point start_;
+    Point far_;
+    std::int64_t reach_ = 0;
+    bool open_ = true;  ///< no direction yet
+    Vector low_{};
+    Vector high_{};
+    BorderPiece ring_[kept];
+    BorderPiece begun_[kept];
+    int count_ = 0;
+};
+
+/// Follows the border of the dark around a pixel that has light on the side of `from` (0 right, 4 left).
+inline void follow_corners(const CodeField& field, Point start, int from, int threshold, int most_steps,
+                           const PassedSides& passed, ListView<BorderCorner> corners);
+
+/// Follows the borders that a row crosses. skip(point) tells what lies in a symbol that was read already.
+/// Answers the steps that were walked.
+template <class Skip>
+int scan_row_for_corners(const CodeField& field, int y, int contrast, const PassedSides& passed, Skip skip,
+                         ListView<BorderCorner> corners);
+
+// ---- Implementation ---------------------------------------------------------------
+
+inline void CornerFinder::add(Point p) {
+    // In quarters of a pixel.
+    const Vector v{4 * std::int64_t{p.x - start_.x}, 4 * std::int64_t{p.y - start_.y}};
+    const std::int64_t ax = v.x < 0 ? -v.x : v.x;
+    const std::int64_t ay = v.y < 0 ? -v.y : v.y;
+    const std::int64_t distance = maximum(ax, ay);
+    if (distance < 8) {
+        if (reach_ >= 16) finish_piece();
+        return;
+    }
+    if (!open_ && (cross(low_, v) < 0 || cross(v, high_) < 0 || distance + 12 < reach_ ||
+                   v.x * low_.x + v.y * low_.y <= 0)) {
+        const Point corner = far_;
+        finish_piece();
+        restart(corner);
+        // What follows the corner begins a new piece; the points between lie within a pixel or two of it.
+        return;
+    }
+    // A pixel and a quarter aside, more on a long way: lenses bend lines.
+    const std::int64_t aside = 5 + minimum<std::int64_t>(distance / 128, 4);
+    Vector low = v;
+    Vector high = v;
+    if (ax >= ay) {
+        low.y += v.x > 0 ? -aside : aside;
+        high.y += v.x > 0 ? aside : -aside;
+    } else {
+        low.x += v.y > 0 ? aside : -aside;
+        high.x += v.y > 0 ? -aside : aside;
+    }
+    if (open_ || cross(low_, low) > 0) low_ = low;
+    if (open_ || cross(high, high_) > 0) high_ = high;
+    open_ = false;
+    if (distance >= reach_) {
+        reach_ = distance;
+        far_ = p;
+    }
+}
+
+inline void CornerFinder::finish_piece() {
+    BorderPiece piece;
+    piece.first = start_;
+    piece.last = far_;
+    piece.length = static_cast<int>(hypotenuse(piece.x(), piece.y()));
+    const Point corner = far_;
+    restart(corner);
+    if (piece.length < shortest) return;
+    for (int i = 0; i < minimum(count_, kept); ++i) pair(ring_[i], piece);
+    if (count_ < kept) begun_[count_] = piece;
+    ring_[count_ % kept] = piece;
+    ++count_;
+}
+
+inline void CornerFinder::end(bool closed) {
+    finish_piece();
+    if (!closed) return;
+    for (int i = 0; i < minimum(count_, kept); ++i)
+        for (int k = 0; k < minimum(count_, 2); ++k) pair(ring_[i], begun_[k]);
+}
+
+inline void CornerFinder::pair(const BorderPiece& in, const BorderPiece& out) {
+    const std::int64_t turn = in.x() * out.y() - in.y() * out.x();
+    // The sine of the corner's angle is at least a half.
+    if (2 * turn < std::int64_t{in.length} * out.length) return;
+    const std::int64_t gap = hypotenuse(out.first.x - in.last.x, out.first.y - in.last.y);
+    if (gap > 4 + minimum(in.length, out.length) / 4) return;
+    BorderCorner corner;
+    corner.in = in;
+    corner.out = out;
+    corner.threshold = threshold_;
+    corner.weight = std::int64_t{in.length} * out.length;
+    if (corners_.push(corner) == Status::ok) return;
+    int weakest = 0;
+    for (int i = 1; i < corners_.size(); ++i)
+        if (corners_[i].weight < corners_[weakest].weight) weakest = i;
+    if (corners_[weakest].weight < corner.weight) corners_[weakest] = corner;
+}
+
+inline int follow_corners_steps(const CodeField& field, Point start, int from, int threshold, int most_steps,
+                                const PassedSides& passed, ListView<BorderCorner> corners) {
+    constexpr int step_x[8] = {1, 1, 0, -1, -1, -1, 0, 1};
+    constexpr int step_y[8] = {0, 1, 1, 1, 0, -1, -1, -1};
+    const int width = field.size().width;
+    const int height = field.size().height;
+    const Gray8 flip = field.flip();
+    const auto dark = [&](int x, int y) {
+        return x >= 0 && y >= 0 && x < width && y < height && (field.row(y)[x] ^ flip) < threshold;
+    };
+    CornerFinder finder(corners, threshold);
+    finder.begin(start);
+    Point at = start;
+    int light = from;
+    for (int step = 0; step < most_steps; ++step) {
+        // Clockwise from a light neighbour to the next dark one.
+        int way = light;
+        int turned = 0;
+        do {
+            if (way == 4) passed.pass_left(at.x, at.y);
+            if (way == 0) passed.pass_right(at.x, at.y);
+            way = (way + 1) & 7;
+            ++turned;
+        } while (turned < 8 && !dark(at.x + step_x[way], at.y + step_y[way]));
+        if (turned == 8) return step;
+        at = {at.x + step_x[way], at.y + step_y[way]};
+        light = (way + (way % 2 == 0 ? 6 : 5)) & 7;
+        finder.add(at);
+        if (at == start && light == from) {
+            finder.end(true);
+            return step;
+        }
+        // Also closed when it comes to the start from another side.
+        if (at == start && ((from - light) & 7) < 3) {
+            finder.end(true);
+            return step;
+        }
+    }
+    finder.end(false);
+    return most_steps;
+}
+
+template <class Skip>
+int scan_row_for_corners(const CodeField& field, int y, int contrast, const PassedSides& passed, Skip skip,
+                         ListView<BorderCorner> corners) {
+    const int width = field.size().width;
+    const Gray8* row = field.row(y);
+    const Gray8 flip = field.flip();
+    const int most_steps = 8 * (field.size().width + field.size().height) + 256;
+    int steps = width;
+    // Extremes in turn; between two of them that differ enough lies an edge.
+    int low = row[0] ^ flip;
+    int high = low;
+    int low_at = 0;
+    int high_at = 0;
+    int way = 0;
+    const auto edge = [&](int from, int to, bool falling) {
+        const int threshold = (low + high + 1) / 2;
+        int x = from + 1;
+        while (x < to && ((row[x] ^ flip) < threshold) != falling) ++x;
+        const int dark_at = falling ? x : x - 1;
+        const bool known = falling ? passed.left(dark_at, y) : passed.right(dark_at, y);
+        if (known || skip(Point{dark_at, y})) return;
+        steps += follow_corners_steps(field, {dark_at, y}, falling ? 4 : 0, threshold, most_steps, passed,
+                                      corners);
+    };
+    for (int x = 1; x < width; ++x) {
+        const int value = row[x] ^ flip;
+        if (way >= 0) {
+            if (value > high) {
+                high = value;
+                high_at = x;
+            } else if (value < high - contrast) {
+                if (way > 0) edge(low_at, high_at, false);
+                way = -1;
+                low = value;
+                low_at = x;
+                continue;
+            }
+        }
+        if (way <= 0) {
+            if (value < low) {
+                low = value;
+                low_at = x;
+            } else if (value > low + contrast) {
+                if (way < 0) edge(high_at, low_at, true);
+                way = 1;
+                high = value;
+                high_at = x;
+            }
+        }
+    }
+    if (way > 0) edge(low_at, high_at, false);
+    if (way < 0) edge(high_at, low_at, true);
+    return steps;
+}
+
+}  // namespace fovea::detail

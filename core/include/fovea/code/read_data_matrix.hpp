@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+//
+// Data Matrix symbols in an image, at any angle, tilted, mirrored, dark on light or light on dark.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/arena.hpp>
+#include <fovea/base/list.hpp>
+#include <fovea/base/order.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/code/code.hpp>
+#include <fovea/code/data_matrix_corners.hpp>
+#include <fovea/code/data_matrix_decode.hpp>
+#include <fovea/code/data_matrix_frame.hpp>
+#include <fovea/code/data_matrix_grid.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/image/pixel.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// Which modules are dark.
+enum class CodePolarity : std::uint8_t { dark_on_light, light_on_dark, both };
+
+struct ReadDataMatrixOptions {
+    CodePolarity polarity = CodePolarity::both;
+    /// Grey levels between dark and light, 4 to 255. Lower finds paler symbols, and walks along more edges.
+    int least_contrast = 24;
+    /// Symbols to look for, 1 or more; the search ends with them.
+    int most_codes = 255;
+};
+
+/// Candidate corners of a part of an image; the heaviest are kept.
+inline constexpr int data_matrix_corners = 64;
+
+/// Scratch bytes that read_data_matrix() needs.
+constexpr std::int64_t read_data_matrix_scratch(Size size) {
+    return arena_bytes<BitWord>(detail::PassedSides::words(size)) +
+           arena_bytes<detail::BorderCorner>(data_matrix_corners) +
+           arena_bytes<std::int16_t>(detail::frame_samples) + arena_bytes<detail::DashedLine>(3) +
+           2 * max_data_matrix_side * max_data_matrix_side +
+           arena_bytes<BitWord>(std::int64_t{max_data_matrix_side} * bit_words(max_data_matrix_side)) +
+           data_matrix_decode_scratch;
+}
+
+/// Finds and reads the Data Matrix symbols of an image. Their texts are appended to text, and they to codes.
+///
+/// Shapes   8x8 or larger, modules of 1 px or more
+/// Order    as they are found
+/// Scratch  read_data_matrix_scratch(image.size()) bytes, undefined afterwards
+/// Time     bounded: every border is walked once along each side, and of a part of the image at most
+///          data_matrix_corners corners are looked at
+/// Errors   empty_image; image_too_large above max_image_side; bad_argument; scratch_too_small; not_found, the
+///          lists untouched; capacity_exceeded when codes are full before all were read; buffer_too_small when
+///          the text is
+/// Source   ISO/IEC 16022; grades as far as a gray image allows after ISO/IEC 15415
+inline Status read_data_matrix(ImageView<const Gray8> image, const ReadDataMatrixOptions& options,
+                               Span<std::uint8_t> scratch, CodeText& text, ListView<Code>& codes);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+class DataMatrixReader {
+public:
+    DataMatrixReader(ImageView<const Gray8> image, const ReadDataMatrixOptions& options,
+                     Span<std::uint8_t> scratch, CodeText& text, ListView<Code>& codes)
+        : image_(image),
+          options_(options),
+          text_(text),
+          codes_(codes),
+          first_(codes.size()),
+          arena_(scratch),
+          passed_(arena_.take_unset<BitWord>(PassedSides::words(image.size())), image.size()),
+          corners_(arena_.take<BorderCorner>(data_matrix_corners)),
+          samples_(arena_.take_unset<std::int16_t>(frame_samples)),
+          dashed_(arena_.take<DashedLine>(3)),
+          values_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
+          sharpened_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
+          words_(arena_.take_unset<BitWord>(std::int64_t{max_data_matrix_side} *
+                                            bit_words(max_data_matrix_side))) {}
+
+    Status read() {
+        if (options_.polarity != CodePolarity::light_on_dark) read_polarity(false);
+        if (options_.polarity != CodePolarity::dark_on_light && !done()) read_polarity(true);
+        if (stop_ != Status::ok) return stop_;
+        return codes_.size() > first_ ? Status::ok : Status::not_found;
+    }
+
+private:
+    bool done() const { return stop_ != Status::ok || codes_.size() - first_ >= options_.most_codes; }
+
+    /// Rows in an order that soon meets what is large, and in the end every symbol.
+    void read_polarity(bool inverted) {
+        field_ = CodeField(image_, inverted);
+        passed_.clear();
+        const int height = image_.height();
+        const int step = clamp(height / 24, 3, 6);
+        // First the middle, then halves and quarters, then all.
+        for (int parts = 2; parts <= 8 && height / parts >= 2 * step; parts *= 2) {
+            for (int i = 1; i < parts; i += 2) {
+                scan(height * i / parts);
+                try_corners();
+                if (done()) return;
+            }
+        }
+        int since = 0;
+        for (int y = step / 2; y < height; y += step) {
+            scan(y);
+            if (++since < 8 && y + step < height && count_ < data_matrix_corners) continue;
+            since = 0;
+            try_corners();
+            if (done()) return;
+        }
+    }
+    void scan(int y) {
+        const ListView<BorderCorner> list(corners_.data(), data_matrix_corners, &count_);
+        static_cast<void>(scan_row_for_corners(
+            field_, y, options_.least_contrast, passed_, [this](Point p) { return known(p); }, list));
+    }
+    /// Whether a place lies in a symbol that was read.
+    bool known(Point p) const {
+        for (int i = first_; i < codes_.size(); ++i) {
+            const Code& code = codes_[i];
+            bool positive = true;
+            bool negative = true;
+            for (int k = 0; k < 4; ++k) {
+                const SubPixelPoint a = code.corners[k];
+                const SubPixelPoint b = code.corners[(k + 1) % 4];
+                const std::int64_t turn = std::int64_t{b.x.raw() - a.x.raw()} * (256 * p.y - a.y.raw()) -
+                                          std::int64_t{b.y.raw() - a.y.raw()} * (256 * p.x - a.x.raw());
+                // Two pixels of grace around it.
+                const std::int64_t grace = 512 * hypotenuse(b.x.raw() - a.x.raw(), b.y.raw() - a.y.raw());
+                positive = positive && turn > -grace;
+                negative = negative && turn < grace;
+            }
+            if (positive || negative) return true;
+        }
+        return false;
+    }
+
+    void try_corners() {
+        const Span<BorderCorner> found = corners_.first(count_);
+        sort(found, [](const BorderCorner& a, const BorderCorner& b) { return a.weight > b.weight; });
+        for (const BorderCorner& corner : found) {
+            if (done()) break;
+            if (known(corner.in.last)) continue;
+            try_corner(corner);
+        }
+        count_ = 0;
+    }
+    void try_corner(const BorderCorner& corner) {
+        const FrameScratch scratch{samples_, dashed_[0], dashed_[1], dashed_[2]};
+        const Result<DataMatrixFrame> frame = find_frame(field_, corner, {}, scratch);
+        if (frame) static_cast<void>(try_frame(*frame));
+    }
+
+    /// Reads a frame as it is and, if its borders are about right, moved to where they are clearest.
+    bool try_frame(DataMatrixFrame frame) {
+        const DataMatrixSize* size = data_matrix_size(frame.rows, frame.columns);
+        bool mirrored = false;
+        if (size == nullptr) {
+            size = data_matrix_size(frame.columns, frame.rows);
+            mirrored = size != nullptr;
+        }
+        if (size == nullptr) return false;
+        if (mirrored) {
+            const Place upper = frame.upper;
+            frame.upper = frame.right;
+            frame.right = upper;
+        }
+        if (try_grid(frame, *size, mirrored)) return true;
+        if (done()) return false;
+        if (!clearer(frame, *size)) return false;
+        return try_grid(frame, *size, mirrored);
+    }
+    static SquareToQuad map_of(const DataMatrixFrame& frame) {
+        return SquareToQuad(frame.upper, frame.opposite, frame.right, frame.corner);
+    }
+
+    /// How well the borders stand out: light less dark ones, per module.
+    int clarity(const DataMatrixFrame& frame, const DataMatrixSize& size) const {
+        const SquareToQuad map = map_of(frame);
+        if (!map.there()) return -5000;
+        std::int64_t sum = 0;
+        int count = 0;
+        for (int y = 0; y < size.rows; ++y) {
+            const int row = y % (size.region_rows() + 2);
+            const bool whole = row == 0 || row == size.region_rows() + 1;
+            for (int x = 0; x < size.columns; ++x) {
+                const DataMatrixModule module = data_matrix_border(size, x, y);
+                if (module == DataMatrixModule::data) {
+                    // On to the region's last column.
+                    if (!whole) x += size.region_columns() - 1;
+                    continue;
+                }
+                const Place p =
+                    map(static_cast<std::int32_t>((std::int64_t{2 * x + 1} << 16) / (2 * size.columns)),
+                        static_cast<std::int32_t>((std::int64_t{2 * y + 1} << 16) / (2 * size.rows)));
+                const int value = field_.sample(p.x, p.y);
+                sum += module == DataMatrixModule::light ? value : -value;
+                ++count;
+            }
+        }
+        return static_cast<int>(sum / count);
+    }
+    /// Moves corners by parts of a module while that makes the borders clearer.
+    bool clearer(DataMatrixFrame& frame, const DataMatrixSize& size) const {
+        const std::int32_t module = module_of(frame, size);
+        int best = clarity(frame, size);
+        const int begin = best;
+        Place* const corners[4] = {&frame.opposite, &frame.upper, &frame.right, &frame.corner};
+        for (std::int32_t move = module / 2; move >= maximum(module / 8, 24); move /= 2) {
+            const Place ways[4] = {{move, 0}, {-move, 0}, {0, move}, {0, -move}};
+            for (int round = 0; round < 2; ++round) {
+                const int before = best;
+                for (Place* corner : corners) {
+                    for (const Place way : ways) {
+                        const Place was = *corner;
+                        *corner = was + way;
+                        const int now = clarity(frame, size);
+                        if (now > best) {
+                            best = now;
+                        } else {
+                            *corner = was;
+                        }
+                    }
+                }
+                if (best == before) break;
+            }
+        }
+        return best > begin;
+    }
+    static std::int32_t module_of(const DataMatrixFrame& frame, const DataMatrixSize& size) {
+        const Place across = frame.right - frame.corner;
+        return static_cast<std::int32_t>(hypotenuse(across.x, across.y) / size.columns);
+    }
+
+    bool try_grid(const DataMatrixFrame& frame, const DataMatrixSize& size, bool mirrored) {
+        const SquareToQuad map = map_of(frame);
+        if (!map.there()) return false;
+        sample_modules(field_, map, size.rows, size.columns, module_of(frame, size), values_);
+        const BorderLevels levels = border_levels(values_, size);
+        if (levels.light - levels.dark < options_.least_contrast / 2) return false;
+        const BitView<BitWord> modules(words_.data(), {size.columns, size.rows}, bit_words(size.columns));
+        for (int rule = 0; rule < module_rules; ++rule) {
+            classify_modules(values_, size, static_cast<ModuleRule>(rule), sharpened_, modules);
+            const BorderErrors errors = border_errors(modules, size);
+            if (errors.wrong * 5 > errors.all) {
+                if (errors.wrong * 3 > errors.all) return false;
+                continue;
+            }
+            if (try_modules(frame, size, mirrored, modules)) return true;
+            if (done()) return false;
+            if (size.square()) {
+                transpose(modules);
+                if (try_modules(frame, size, true, modules)) return true;
+                if (done()) return false;
+            }
+        }
+        return false;
+    }
+    /// About the diagonal through the corner of the solid lines.
+    static void transpose(BitView<BitWord> modules) {
+        const int last = modules.width() - 1;
+        for (int y = 0; y <= last; ++y)
+            for (int x = 0; x + y < last; ++x) {
+                const bool a = modules(x, y);
+                modules.set(x, y, modules(last - y, last - x));
+                modules.set(last - y, last - x, a);
+            }
+    }
+
+    bool try_modules(const DataMatrixFrame& frame, const DataMatrixSize& size, bool mirrored,
+                     BitView<const BitWord> modules) {
+        const int text_first = text_.size();
+        const CodeText before = text_;
+        if (text_.begin_segment(TextSegment::not_stated) != Status::ok) {
+            stop_ = Status::capacity_exceeded;
+            return false;
+        }
+        const Result<DataMatrixReading> reading = data_matrix_decode(modules, arena_.rest(), text_);
+        if (!reading) {
+            text_ = before;
+            if (reading.status() == Status::buffer_too_small || reading.status() == Status::capacity_exceeded)
+                stop_ = reading.status();
+            return false;
+        }
+        Code code;
+        code.symbology = Symbology::data_matrix;
+        code.aim_digit = reading->message.aim_digit;
+        code.text_first = text_first;
+        code.text_size = text_.size() - text_first;
+        const bool turned = mirrored && size.square();
+        const Place corners[4] = {turned ? frame.right : frame.upper, frame.opposite,
+                                  turned ? frame.upper : frame.right, frame.corner};
+        for (int i = 0; i < 4; ++i)
+            code.corners[i] = {SubPixel::from_raw(corners[i].x), SubPixel::from_raw(corners[i].y)};
+        code.corrected_errors = reading->corrected_errors;
+        code.inverted = field_.inverted();
+        code.mirrored = mirrored;
+        code.grade = grade(frame, size, *reading);
+        const Status pushed = codes_.push(code);
+        if (pushed == Status::ok) return true;
+        text_ = before;
+        stop_ = pushed;
+        return false;
+    }
+
+    static std::int8_t step_grade(int value, int a, int b, int c, int d) {
+        return static_cast<std::int8_t>(value >= a   ? 4
+                                        : value >= b ? 3
+                                        : value >= c ? 2
+                                        : value >= d ? 1
+                                                     : 0);
+    }
+    /// ISO/IEC 15415, 7.8: tables 3 to 6.
+    CodeGrade grade(const DataMatrixFrame& frame, const DataMatrixSize& size,
+                    const DataMatrixReading& reading) const {
+        CodeGrade grade;
+        const int count = size.rows * size.columns;
+        int low = 255;
+        int high = 0;
+        for (int i = 0; i < count; ++i) {
+            low = minimum<int>(low, values_[i]);
+            high = maximum<int>(high, values_[i]);
+        }
+        const int contrast = maximum(high - low, 1);
+        grade.symbol_contrast = step_grade(100 * contrast / 255, 70, 55, 40, 20);
+        // Twice the way from the threshold, of the contrast; a twentieth of the modules may be worse.
+        const int threshold = (high + low) / 2;
+        int worse[4] = {};
+        for (int i = 0; i < count; ++i) {
+            const int way =
+                200 * (values_[i] > threshold ? values_[i] - threshold : threshold - values_[i]) / contrast;
+            const int of = step_grade(way, 50, 40, 30, 20);
+            for (int k = of; k < 4; ++k) ++worse[k];
+        }
+        int modulation = 4;
+        while (modulation > 0 && worse[modulation - 1] * 20 > count) --modulation;
+        grade.modulation = static_cast<std::int8_t>(modulation);
+        grade.unused_error_correction = step_grade(reading.unused_correction, 62, 50, 37, 25);
+        grade.quiet_zone = quiet_zone(frame, size, threshold);
+        grade.overall = minimum(minimum(grade.symbol_contrast, grade.modulation),
+                                minimum(grade.unused_error_correction, grade.quiet_zone));
+        return grade;
+    }
+    /// By how much of the ring of a module around the symbol is light.
+    std::int8_t quiet_zone(const DataMatrixFrame& frame, const DataMatrixSize& size, int threshold) const {
+        const SquareToQuad map = map_of(frame);
+        int light = 0;
+        int all = 0;
+        const auto look = [&](int x, int y) {
+            const Place p =
+                map(static_cast<std::int32_t>((std::int64_t{2 * x + 1} << 16) / (2 * size.columns)),
+                    static_cast<std::int32_t>((std::int64_t{2 * y + 1} << 16) / (2 * size.rows)));
+            ++all;
+            light += field_.sample(p.x, p.y) > 16 * threshold ? 1 : 0;
+        };
+        for (int x = -1; x <= size.columns; ++x) {
+            look(x, -1);
+            look(x, size.rows);
+        }
+        for (int y = 0; y < size.rows; ++y) {
+            look(-1, y);
+            look(size.columns, y);
+        }
+        return step_grade(100 * light / all, 98, 95, 90, 80);
+    }
+
+    ImageView<const Gray8> image_;
+    ReadDataMatrixOptions options_;
+    CodeText& text_;
+    ListView<Code>& codes_;
+    int first_;
+    Arena arena_;
+    PassedSides passed_;
+    Span<BorderCorner> corners_;
+    Span<std::int16_t> samples_;
+    Span<DashedLine> dashed_;
+    Span<std::uint8_t> values_;
+    Span<std::uint8_t> sharpened_;
+    Span<BitWord> words_;
+    CodeField field_;
+    int count_ = 0;
+    Status stop_ = Status::ok;
+};
+
+}  // namespace detail
+
+inline Status read_data_matrix(ImageView<const Gray8> image, const ReadDataMatrixOptions& options,
+                               Span<std::uint8_t> scratch, CodeText& text, ListView<Code>& codes) {
+    if (image.empty()) return Status::empty_image;
+    if (image.width() > max_image_side || image.height() > max_image_side) return Status::image_too_large;
+    if (options.least_contrast < 4 || options.least_contrast > 255 || options.most_codes < 1)
+        return Status::bad_argument;
+    if (scratch.size() < read_data_matrix_scratch(image.size())) return Status::scratch_too_small;
+    return detail::DataMatrixReader(image, options, scratch, text, codes).read();
+}
+
+}  // namespace fovea
