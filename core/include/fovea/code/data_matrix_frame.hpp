@@ -60,14 +60,13 @@ constexpr Result<Place> crossing(const EdgeLine& a, const EdgeLine& b);
 struct DashedLine {
     static constexpr int most_changes = 2 * max_data_matrix_side;
 
-    int changes = 0;  ///< between dark and light; the first and the last is to light
-    int good = 0;     ///< periods that are like their neighbours
-    int bad = 0;
+    int changes = 0;                ///< between dark and light; the first and the last is to light
+    int bad = 0;                    ///< periods that are not like the others
+    int score = 0;                  ///< eight for every good period, less for what is uneven
     std::int32_t at[most_changes];  ///< from the outer edge of the solid line, 1/256 px
 
     int dashes() const { return (changes + 1) / 2; }
     int modules() const { return 2 * dashes(); }
-    int score() const { return good - 2 * bad; }
 };
 
 /// Four corners, where the solid lines meet, where they end, and opposite; and how many modules lie between.
@@ -113,6 +112,13 @@ constexpr Result<Place> crossing(const EdgeLine& a, const EdgeLine& b) {
     return a.at + a.direction.times(static_cast<std::int32_t>(length));
 }
 
+/// Whether symbols have a side of that many modules.
+constexpr bool is_side(int modules) {
+    for (const DataMatrixSize& size : data_matrix_sizes)
+        if (size.rows == modules || size.columns == modules) return true;
+    return false;
+}
+
 /// One try to find a frame; its parts share the levels and the size of a module.
 class FrameFinder {
 public:
@@ -141,8 +147,10 @@ private:
                 EdgeLine& line) const;
     std::int32_t thickness(const Arm& arm, std::int32_t from, std::int32_t to) const;
     std::int32_t walk(const Arm& arm) const;
-    void follow_dashes(Place start, Direction way, std::int32_t longest, DashedLine& dashed) const;
-    bool find_dashes(const Arm& from, const Arm& beside, DashedLine& dashed, EdgeLine& edge) const;
+    void follow_dashes(Place start, Direction way, std::int32_t beside, DashedLine& dashed) const;
+    template <class Allowed>
+    bool find_dashes(const Arm& from, const Arm& beside, Allowed allowed, DashedLine& dashed,
+                     EdgeLine& edge) const;
     EdgeLine edge_of(const EdgeLine& centre, Direction outward, const DashedLine& dashed) const;
     static bool fit(Span<const Place> offsets, const EdgeLine& about, Direction aside, EdgeLine& line);
 
@@ -277,15 +285,16 @@ inline std::int32_t FrameFinder::walk(const Arm& arm) const {
 }
 
 /// Where neighbouring extremes of a profile are, in turn, and the profile goes through the middle of them.
-inline void FrameFinder::follow_dashes(Place start, Direction way, std::int32_t longest,
+inline void FrameFinder::follow_dashes(Place start, Direction way, std::int32_t beside,
                                        DashedLine& dashed) const {
+    const std::int32_t longest = minimum(beside + beside / 2, largest_);
     const Span<std::int16_t> samples = scratch_.samples;
     const std::int32_t step =
         maximum(maximum(module_ / 5, 48), longest / (static_cast<std::int32_t>(samples.size()) - 1) + 1);
     const std::int32_t begin = module_ / 2;
     dashed.changes = 0;
-    dashed.good = 0;
     dashed.bad = 0;
+    dashed.score = -1000;
     std::int32_t pitch = module_;
     const auto change = [&](int from, int to) {
         if (dashed.changes == DashedLine::most_changes) return;
@@ -341,32 +350,43 @@ inline void FrameFinder::follow_dashes(Place start, Direction way, std::int32_t 
         dashed.bad += 1;
     }
     if (dashed.changes % 2 == 0 && dashed.changes > 0) --dashed.changes;
-    if (dashed.changes < 5) return;
+    if (dashed.changes < 7) return;
     std::int32_t usual = 2 * dashed.at[dashed.changes - 1] / dashed.changes;
+    int score = -16 * dashed.bad;
     for (int k = 0; k + 2 < dashed.changes; ++k) {
         const std::int32_t period = dashed.at[k + 2] - dashed.at[k];
-        const bool like = 10 * period > 7 * usual && 10 * period < 14 * usual;
-        ++(like ? dashed.good : dashed.bad);
-        if (like) usual = (3 * usual + period) / 4;
+        const int uneven = static_cast<int>(32 * magnitude(period - usual) / magnitude(usual));
+        if (uneven < 12) {
+            score += 8 - uneven;
+            usual = (3 * usual + period) / 4;
+        } else {
+            score -= 16;
+            ++dashed.bad;
+        }
     }
+    // Sides that face each other are alike but for the tilt: a module for an eighth of difference.
+    const std::int32_t length = dashed.at[dashed.changes - 1] + usual / 2;
+    const int other = static_cast<int>(64 * magnitude(length - beside) / magnitude(beside));
+    dashed.score = score - maximum(other - 6, 0);
 }
 
 /// The dashed line that begins where a solid one ends and goes about the way of the other.
-inline bool FrameFinder::find_dashes(const Arm& from, const Arm& beside, DashedLine& dashed,
-                                     EdgeLine& edge) const {
+template <class Allowed>
+bool FrameFinder::find_dashes(const Arm& from, const Arm& beside, Allowed allowed, DashedLine& dashed,
+                              EdgeLine& edge) const {
     const Place end = from.line.at + from.line.direction.times(from.length);
     const Place start = end - from.line.direction.times(module_ / 2);
     // A third of a module at the far end for every try.
     const std::int32_t step = maximum<std::int32_t>(
         static_cast<std::int32_t>((std::int64_t{module_} << 14) / (3 * std::int64_t{beside.length})), 16);
     const int tries = minimum<int>((1 << 14) * 2 / 5 / step, most_tries);
-    const std::int32_t longest = minimum(beside.length + beside.length / 2, largest_);
+    const std::int32_t longest = beside.length;
     const auto way_of = [&](int j) {
         return direction_of(beside.line.direction.x - (std::int64_t{from.line.direction.x} * j * step >> 14),
                             beside.line.direction.y - (std::int64_t{from.line.direction.y} * j * step >> 14));
     };
     DashedLine& now = scratch_.trial;
-    int best = -1000;
+    int best = 0;
     int best_j = 0;
     int best_modules = 0;
     bool best_clean = false;
@@ -376,26 +396,29 @@ inline bool FrameFinder::find_dashes(const Arm& from, const Arm& beside, DashedL
         const int j = n % 2 == 0 ? -n / 2 : (n + 1) / 2;
         if (best_clean && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 5) break;
         follow_dashes(start, way_of(j), longest, now);
-        if (now.dashes() < 4 || now.score() < best || now.good < 3) continue;
-        if (now.score() == best && now.modules() == best_modules) {
+        // A slight tilt is likelier than a strong one.
+        now.score -= (j < 0 ? -j : j) / 4;
+        if (now.score < 16 || !allowed(now.modules())) continue;
+        if (now.modules() == best_modules && (j == least_j - 1 || j == most_j + 1) && now.score > best - 6) {
             // Neighbours that say the same widen the range.
-            if (j == least_j - 1) least_j = j;
-            if (j == most_j + 1) most_j = j;
+            least_j = minimum(least_j, j);
+            most_j = maximum(most_j, j);
+            best = maximum(best, now.score);
             continue;
         }
-        if (now.score() == best) continue;
-        best = now.score();
+        if (now.score <= best) continue;
+        best = now.score;
         best_j = least_j = most_j = j;
         best_modules = now.modules();
         best_clean = now.bad == 0;
     }
-    if (best < 3) return false;
+    if (best < 16) return false;
     const int middle_2 = least_j + most_j;
     const Direction way =
         direction_of(beside.line.direction.x - (std::int64_t{from.line.direction.x} * middle_2 * step >> 15),
                      beside.line.direction.y - (std::int64_t{from.line.direction.y} * middle_2 * step >> 15));
     follow_dashes(start, way, longest, dashed);
-    if (dashed.score() < best) {
+    if (dashed.modules() != best_modules || dashed.score < best - 12) {
         follow_dashes(start, way_of(best_j), longest, dashed);
         edge = edge_of({start, way_of(best_j)}, from.line.direction, dashed);
     } else {
@@ -498,8 +521,16 @@ inline Result<DataMatrixFrame> FrameFinder::find(const BorderCorner& corner) {
     DashedLine& beside = scratch_.beside;
     EdgeLine upper;
     EdgeLine right;
-    if (!find_dashes(first, second, above, upper)) return Status::not_found;
-    if (!find_dashes(second, first, beside, right)) return Status::not_found;
+    const auto with = [](int other) {
+        return [other](int n) {
+            return data_matrix_size(n, other) != nullptr || data_matrix_size(other, n) != nullptr;
+        };
+    };
+    if (!find_dashes(first, second, is_side, above, upper)) return Status::not_found;
+    if (!find_dashes(second, first, with(above.modules()), beside, right)) {
+        if (!find_dashes(second, first, is_side, beside, right)) return Status::not_found;
+        if (!find_dashes(first, second, with(beside.modules()), above, upper)) return Status::not_found;
+    }
     const Result<Place> a = crossing(upper, first.line);
     const Result<Place> b = crossing(right, second.line);
     const Result<Place> d = crossing(upper, right);
