@@ -47,6 +47,7 @@ public:
     bool inverted() const { return flip_ != 0; }
     const Gray8* row(int y) const { return image_.row(y); }
     Gray8 flip() const { return flip_; }
+    std::ptrdiff_t stride() const { return image_.stride_bytes(); }
     int pixel(int x, int y) const {
         if (x < 0 || y < 0 || x >= image_.width() || y >= image_.height()) return 255;
         return image_.row(y)[x] ^ flip_;
@@ -126,6 +127,12 @@ private:
         std::int64_t x;
         std::int64_t y;
     };
+    /// Within 7 % of it.
+    static int about_length(int x, int y) {
+        const int a = x < 0 ? -x : x;
+        const int b = y < 0 ? -y : y;
+        return maximum(a, b) + 3 * minimum(a, b) / 8;
+    }
     static std::int64_t cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
 
     void restart(Point p) {
@@ -156,11 +163,10 @@ private:
 inline void follow_corners(const CodeField& field, Point start, int from, int threshold, int most_steps,
                            const PassedSides& passed, ListView<BorderCorner> corners);
 
-/// Follows the borders that a row crosses. skip(point) tells what lies in a symbol that was read already.
+/// Follows the borders that a row crosses between two of its pixels.
 /// Answers the steps that were walked.
-template <class Skip>
-int scan_row_for_corners(const CodeField& field, int y, int contrast, const PassedSides& passed, Skip skip,
-                         ListView<BorderCorner> corners);
+inline int scan_row_for_corners(const CodeField& field, int y, int first, int last, int contrast,
+                                const PassedSides& passed, ListView<BorderCorner> corners);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -206,9 +212,9 @@ inline void CornerFinder::finish_piece() {
     BorderPiece piece;
     piece.first = start_;
     piece.last = far_;
-    piece.length = static_cast<int>(hypotenuse(piece.x(), piece.y()));
     const Point corner = far_;
     restart(corner);
+    piece.length = about_length(piece.last.x - piece.first.x, piece.last.y - piece.first.y);
     if (piece.length < shortest) return;
     for (int i = 0; i < minimum(count_, kept); ++i) pair(ring_[i], piece);
     if (count_ < kept) begun_[count_] = piece;
@@ -227,13 +233,14 @@ inline void CornerFinder::pair(const BorderPiece& in, const BorderPiece& out) {
     const std::int64_t turn = in.x() * out.y() - in.y() * out.x();
     // The sine of the corner's angle is at least a half.
     if (2 * turn < std::int64_t{in.length} * out.length) return;
-    const std::int64_t gap = hypotenuse(out.first.x - in.last.x, out.first.y - in.last.y);
+    const int gap = about_length(out.first.x - in.last.x, out.first.y - in.last.y);
     if (gap > 4 + minimum(in.length, out.length) / 4) return;
     BorderCorner corner;
     corner.in = in;
     corner.out = out;
     corner.threshold = threshold_;
-    corner.weight = std::int64_t{in.length} * out.length;
+    const std::int64_t shorter = minimum(in.length, out.length);
+    corner.weight = shorter * minimum<std::int64_t>(maximum(in.length, out.length), 4 * shorter);
     if (corners_.push(corner) == Status::ok) return;
     int weakest = 0;
     for (int i = 1; i < corners_.size(); ++i)
@@ -251,6 +258,9 @@ inline int follow_corners_steps(const CodeField& field, Point start, int from, i
     const auto dark = [&](int x, int y) {
         return x >= 0 && y >= 0 && x < width && y < height && (field.row(y)[x] ^ flip) < threshold;
     };
+    const std::ptrdiff_t stride = field.stride();
+    const std::ptrdiff_t offset[8] = {1,  stride + 1,  stride,  stride - 1,
+                                      -1, -stride - 1, -stride, 1 - stride};
     CornerFinder finder(corners, threshold);
     finder.begin(start);
     Point at = start;
@@ -259,12 +269,15 @@ inline int follow_corners_steps(const CodeField& field, Point start, int from, i
         // Clockwise from a light neighbour to the next dark one.
         int way = light;
         int turned = 0;
+        const Gray8* here = field.row(at.y) + at.x;
+        const bool inside = at.x > 0 && at.y > 0 && at.x < width - 1 && at.y < height - 1;
         do {
             if (way == 4) passed.pass_left(at.x, at.y);
             if (way == 0) passed.pass_right(at.x, at.y);
             way = (way + 1) & 7;
             ++turned;
-        } while (turned < 8 && !dark(at.x + step_x[way], at.y + step_y[way]));
+        } while (turned < 8 && !(inside ? (here[offset[way]] ^ flip) < threshold
+                                        : dark(at.x + step_x[way], at.y + step_y[way])));
         if (turned == 8) return step;
         at = {at.x + step_x[way], at.y + step_y[way]};
         light = (way + (way % 2 == 0 ? 6 : 5)) & 7;
@@ -283,19 +296,17 @@ inline int follow_corners_steps(const CodeField& field, Point start, int from, i
     return most_steps;
 }
 
-template <class Skip>
-int scan_row_for_corners(const CodeField& field, int y, int contrast, const PassedSides& passed, Skip skip,
-                         ListView<BorderCorner> corners) {
-    const int width = field.size().width;
+inline int scan_row_for_corners(const CodeField& field, int y, int first, int last, int contrast,
+                                const PassedSides& passed, ListView<BorderCorner> corners) {
     const Gray8* row = field.row(y);
     const Gray8 flip = field.flip();
     const int most_steps = 8 * (field.size().width + field.size().height) + 256;
-    int steps = width;
+    int steps = last - first + 1;
     // Extremes in turn; between two of them that differ enough lies an edge.
-    int low = row[0] ^ flip;
+    int low = row[first] ^ flip;
     int high = low;
-    int low_at = 0;
-    int high_at = 0;
+    int low_at = first;
+    int high_at = first;
     int way = 0;
     const auto edge = [&](int from, int to, bool falling) {
         const int threshold = (low + high + 1) / 2;
@@ -303,11 +314,11 @@ int scan_row_for_corners(const CodeField& field, int y, int contrast, const Pass
         while (x < to && ((row[x] ^ flip) < threshold) != falling) ++x;
         const int dark_at = falling ? x : x - 1;
         const bool known = falling ? passed.left(dark_at, y) : passed.right(dark_at, y);
-        if (known || skip(Point{dark_at, y})) return;
+        if (known) return;
         steps += follow_corners_steps(field, {dark_at, y}, falling ? 4 : 0, threshold, most_steps, passed,
                                       corners);
     };
-    for (int x = 1; x < width; ++x) {
+    for (int x = first + 1; x <= last; ++x) {
         const int value = row[x] ^ flip;
         if (way >= 0) {
             if (value > high) {

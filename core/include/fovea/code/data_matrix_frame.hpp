@@ -290,7 +290,7 @@ inline void FrameFinder::follow_dashes(Place start, Direction way, std::int32_t 
     const std::int32_t longest = minimum(beside + beside / 2, largest_);
     const Span<std::int16_t> samples = scratch_.samples;
     const std::int32_t step =
-        maximum(maximum(module_ / 5, 48), longest / (static_cast<std::int32_t>(samples.size()) - 1) + 1);
+        maximum(maximum(module_ / 4, 64), longest / (static_cast<std::int32_t>(samples.size()) - 1) + 1);
     const std::int32_t begin = module_ / 2;
     dashed.changes = 0;
     dashed.bad = 0;
@@ -394,7 +394,7 @@ bool FrameFinder::find_dashes(const Arm& from, const Arm& beside, Allowed allowe
     int most_j = 0;
     for (int n = 0; n <= 2 * tries; ++n) {
         const int j = n % 2 == 0 ? -n / 2 : (n + 1) / 2;
-        if (best_clean && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 5) break;
+        if (best_clean && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 3) break;
         follow_dashes(start, way_of(j), longest, now);
         // A slight tilt is likelier than a strong one.
         now.score -= (j < 0 ? -j : j) / 4;

@@ -98,7 +98,7 @@ private:
         field_ = CodeField(image_, inverted);
         passed_.clear();
         const int height = image_.height();
-        const int step = clamp(height / 24, 3, 6);
+        const int step = clamp(height / 64, 3, 7);
         // First the middle, then halves and quarters, then all.
         for (int parts = 2; parts <= 8 && height / parts >= 2 * step; parts *= 2) {
             for (int i = 1; i < parts; i += 2) {
@@ -110,16 +110,55 @@ private:
         int since = 0;
         for (int y = step / 2; y < height; y += step) {
             scan(y);
-            if (++since < 8 && y + step < height && count_ < data_matrix_corners) continue;
+            if (++since < 16 && y + step < height) continue;
             since = 0;
             try_corners();
             if (done()) return;
         }
     }
+    /// A row without what lies in symbols that were read.
     void scan(int y) {
         const ListView<BorderCorner> list(corners_.data(), data_matrix_corners, &count_);
-        static_cast<void>(scan_row_for_corners(
-            field_, y, options_.least_contrast, passed_, [this](Point p) { return known(p); }, list));
+        const int width = image_.width();
+        for (int x = 0; x < width;) {
+            int first = x;
+            int end = width;
+            // The nearest symbol from here on; those that begin before it push the beginning on.
+            for (int i = first_; i < codes_.size(); ++i) {
+                const Extent hidden = extent(codes_[i], y);
+                if (hidden.last < first || hidden.first >= end) continue;
+                if (hidden.first <= first) {
+                    first = hidden.last + 1;
+                    end = width;
+                    i = first_ - 1;
+                } else {
+                    end = hidden.first;
+                }
+            }
+            if (first >= width) return;
+            static_cast<void>(
+                scan_row_for_corners(field_, y, first, end - 1, options_.least_contrast, passed_, list));
+            x = end;
+        }
+    }
+    struct Extent {
+        int first;
+        int last;  ///< before first: none
+    };
+    /// The columns that a symbol covers in a row, and a pixel on both sides.
+    static Extent extent(const Code& code, int y) {
+        Extent covered{1 << 30, -1};
+        for (int k = 0; k < 4; ++k) {
+            const SubPixelPoint a = code.corners[k];
+            const SubPixelPoint b = code.corners[(k + 1) % 4];
+            const std::int64_t from = std::int64_t{256} * y - a.y.raw();
+            const std::int64_t height = std::int64_t{b.y.raw()} - a.y.raw();
+            if (height == 0 || (height > 0 ? from < 0 || from > height : from > 0 || from < height)) continue;
+            const std::int64_t x = a.x.raw() + (std::int64_t{b.x.raw()} - a.x.raw()) * from / height;
+            covered.first = minimum(covered.first, static_cast<int>(x >> 8) - 1);
+            covered.last = maximum(covered.last, static_cast<int>(x >> 8) + 2);
+        }
+        return covered;
     }
     /// Whether a place lies in a symbol that was read.
     bool known(Point p) const {
