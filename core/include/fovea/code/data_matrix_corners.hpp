@@ -309,12 +309,32 @@ inline int scan_row_for_corners(const CodeField& field, int y, int first, int la
     int high_at = first;
     int way = 0;
     const auto edge = [&](int from, int to, bool falling) {
-        const int threshold = (low + high + 1) / 2;
-        int x = from + 1;
-        while (x < to && ((row[x] ^ flip) < threshold) != falling) ++x;
+        // The steepest step and those beside it that are at least a sixth of it: not the slope of the light.
+        const auto level = [&](int x) { return falling ? 255 - (row[x] ^ flip) : row[x] ^ flip; };
+        int steepest = 0;
+        int at = from;
+        for (int x = from; x < to; ++x) {
+            const int step = level(x + 1) - level(x);
+            if (step <= steepest) continue;
+            steepest = step;
+            at = x;
+        }
+        int begin = at;
+        int end = at + 1;
+        while (begin > from && 6 * (level(begin) - level(begin - 1)) >= steepest) --begin;
+        while (end < to && 6 * (level(end + 1) - level(end)) >= steepest) ++end;
+        if (level(end) - level(begin) < contrast) {
+            // Noise cuts an edge short; a long slope is none.
+            if (to - from > 16) return;
+            begin = from;
+            end = to;
+        }
+        const int middle = (level(begin) + level(end) + 1) / 2;
+        const int threshold = falling ? 256 - middle : middle;
+        int x = begin + 1;
+        while (x < end && ((row[x] ^ flip) < threshold) != falling) ++x;
         const int dark_at = falling ? x : x - 1;
-        const bool known = falling ? passed.left(dark_at, y) : passed.right(dark_at, y);
-        if (known) return;
+        if (falling ? passed.left(dark_at, y) : passed.right(dark_at, y)) return;
         steps += follow_corners_steps(field, {dark_at, y}, falling ? 4 : 0, threshold, most_steps, passed,
                                       corners);
     };

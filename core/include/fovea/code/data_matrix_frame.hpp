@@ -217,16 +217,22 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
             from + margin +
             static_cast<std::int32_t>(std::int64_t{to - from - 2 * margin} * i / (places - 1));
         const Place middle = chord.at + chord.direction.times(along);
-        int before = 0;
-        std::int32_t best = 1 << 20;
+        int levels[steps];
+        int low = 4080;
+        int high = 0;
         for (int k = 0; k < steps; ++k) {
-            const std::int32_t aside = 128 * k - 448;
-            const int now = value(middle + outward.times(aside));
-            if (k > 0 && before < threshold_ && now >= threshold_) {
-                const std::int32_t place = aside - 128 * (now - threshold_) / (now - before);
-                if (magnitude(place - 128) < magnitude(best - 128)) best = place;
-            }
-            before = now;
+            levels[k] = value(middle + outward.times(128 * k - 448));
+            low = minimum(low, levels[k]);
+            high = maximum(high, levels[k]);
+        }
+        // The middle of what is here, unless that is too little.
+        const int between = high - low > 192 ? (high + low) / 2 : threshold_;
+        std::int32_t best = 1 << 20;
+        for (int k = 1; k < steps; ++k) {
+            if (levels[k - 1] >= between || levels[k] < between) continue;
+            const std::int32_t place =
+                128 * k - 448 - 128 * (levels[k] - between) / (levels[k] - levels[k - 1]);
+            if (magnitude(place - 128) < magnitude(best - 128)) best = place;
         }
         if (best < 1 << 20) offsets[count++] = {along, best};
     }
@@ -243,12 +249,15 @@ inline std::int32_t FrameFinder::thickness(const Arm& arm, std::int32_t from, st
         const std::int32_t along =
             from + static_cast<std::int32_t>(std::int64_t{to - from} * (2 * i + 1) / (2 * probes));
         const Place edge = arm.line.at + arm.line.direction.times(along);
+        const int dark = minimum(value(edge + arm.inward.times(192)), value(edge + arm.inward.times(320)));
+        const int light = value(edge - arm.inward.times(384));
+        const int between = light - dark > 128 ? (light + dark) / 2 : threshold_;
         std::int32_t depth = 96;
-        int before = threshold_ - 1;
+        int before = between - 1;
         for (; depth < most; depth += step) {
             const int now = value(edge + arm.inward.times(depth));
-            if (now >= threshold_) {
-                depth -= step * (now - threshold_) / maximum(now - before, 1);
+            if (now >= between) {
+                depth -= step * (now - between) / maximum(now - before, 1);
                 break;
             }
             before = now;
@@ -265,17 +274,23 @@ inline std::int32_t FrameFinder::walk(const Arm& arm) const {
     const std::int32_t gap =
         maximum(static_cast<std::int32_t>(std::int64_t{module_} * options_.gap >> 8), 256);
     const Place start = arm.line.at + arm.inward.times(depth);
+    const Place outside = arm.line.at - arm.inward.times(maximum(depth, 320));
+    // Levels on both sides of the edge, which follow the light along it.
+    int dark = value(start + arm.line.direction.times(module_));
+    int light = value(outside + arm.line.direction.times(module_));
     std::int32_t end = 0;
-    int before = 0;
+    int before = dark;
     bool in_dark = true;
     for (std::int32_t along = module_ / 2; along < largest_; along += step) {
         const int now = value(start + arm.line.direction.times(along));
-        if (now < threshold_) {
+        light = (7 * light + value(outside + arm.line.direction.times(along))) / 8;
+        const int between = (light + dark) / 2;
+        if (now < between) {
             in_dark = true;
             end = along;
+            dark = (7 * dark + now) / 8;
         } else {
-            if (in_dark)
-                end = along - (before < threshold_ ? step * (now - threshold_) / (now - before) : step);
+            if (in_dark) end = along - (before < between ? step * (now - between) / (now - before) : step);
             in_dark = false;
             if (along - end > gap) break;
         }
