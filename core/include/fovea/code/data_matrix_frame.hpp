@@ -62,6 +62,7 @@ struct DashedLine {
 
     int changes = 0;                ///< between dark and light; the first and the last is to light
     int bad = 0;                    ///< periods that are not like the others
+    bool even = false;              ///< nothing speaks against it
     int score = 0;                  ///< eight for every good period, less for what is uneven
     std::int32_t at[most_changes];  ///< from the outer edge of the solid line, 1/256 px
 
@@ -110,6 +111,18 @@ constexpr Result<Place> crossing(const EdgeLine& a, const EdgeLine& b) {
     const std::int64_t length = (along << 14) / turn;
     if (length > (1 << 24) || length < -(1 << 24)) return Status::not_found;
     return a.at + a.direction.times(static_cast<std::int32_t>(length));
+}
+
+/// By how much dark modules are printed too large, on each side, 1/256 px.
+inline std::int32_t growth_of(const DashedLine& dashed) {
+    std::int64_t dark = 0;
+    std::int64_t light = 0;
+    const int pairs = (dashed.changes - 1) / 2;
+    for (int k = 0; k < pairs; ++k) {
+        light += dashed.at[2 * k + 1] - dashed.at[2 * k];
+        dark += dashed.at[2 * k + 2] - dashed.at[2 * k + 1];
+    }
+    return pairs == 0 ? 0 : static_cast<std::int32_t>((dark - light) / (4 * pairs));
 }
 
 /// Whether symbols have a side of that many modules.
@@ -310,6 +323,7 @@ inline void FrameFinder::follow_dashes(Place start, Direction way, std::int32_t 
     dashed.changes = 0;
     dashed.bad = 0;
     dashed.score = -1000;
+    dashed.even = false;
     std::int32_t pitch = module_;
     const auto change = [&](int from, int to) {
         if (dashed.changes == DashedLine::most_changes) return;
@@ -352,7 +366,7 @@ inline void FrameFinder::follow_dashes(Place start, Direction way, std::int32_t 
                 rising = false;
                 low = i;
                 turned = i;
-            } else if (step * (i - turned) > 7 * pitch / 4) {
+            } else if (step * (i - turned) > (dashed.changes < 2 ? 3 * module_ : 7 * pitch / 4)) {
                 change(low, high);
                 ended = true;
                 break;
@@ -383,6 +397,7 @@ inline void FrameFinder::follow_dashes(Place start, Direction way, std::int32_t 
     const std::int32_t length = dashed.at[dashed.changes - 1] + usual / 2;
     const int other = static_cast<int>(64 * magnitude(length - beside) / magnitude(beside));
     dashed.score = score - maximum(other - 6, 0);
+    dashed.even = dashed.bad == 0 && other < 10;
 }
 
 /// The dashed line that begins where a solid one ends and goes about the way of the other.
@@ -404,12 +419,12 @@ bool FrameFinder::find_dashes(const Arm& from, const Arm& beside, Allowed allowe
     int best = 0;
     int best_j = 0;
     int best_modules = 0;
-    bool best_clean = false;
+    bool best_even = false;
     int least_j = 0;
     int most_j = 0;
     for (int n = 0; n <= 2 * tries; ++n) {
         const int j = n % 2 == 0 ? -n / 2 : (n + 1) / 2;
-        if (best_clean && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 3) break;
+        if (best_even && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 3) break;
         follow_dashes(start, way_of(j), longest, now);
         // A slight tilt is likelier than a strong one.
         now.score -= (j < 0 ? -j : j) / 4;
@@ -425,7 +440,7 @@ bool FrameFinder::find_dashes(const Arm& from, const Arm& beside, Allowed allowe
         best = now.score;
         best_j = least_j = most_j = j;
         best_modules = now.modules();
-        best_clean = now.bad == 0;
+        best_even = now.even;
     }
     if (best < 16) return false;
     const int middle_2 = least_j + most_j;
@@ -546,6 +561,13 @@ inline Result<DataMatrixFrame> FrameFinder::find(const BorderCorner& corner) {
         if (!find_dashes(second, first, is_side, beside, right)) return Status::not_found;
         if (!find_dashes(first, second, with(beside.modules()), above, upper)) return Status::not_found;
     }
+    // Print grows on all sides alike, and the grid does not.
+    const std::int32_t growth = (growth_of(above) + growth_of(beside)) / 2;
+    first.line.at = first.line.at + first.inward.times(growth);
+    second.line.at = second.line.at + second.inward.times(growth);
+    upper.at = upper.at - first.line.direction.times(growth);
+    right.at = right.at - second.line.direction.times(growth);
+    if (!settle()) return Status::not_found;
     const Result<Place> a = crossing(upper, first.line);
     const Result<Place> b = crossing(right, second.line);
     const Result<Place> d = crossing(upper, right);
