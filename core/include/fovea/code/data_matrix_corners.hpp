@@ -116,7 +116,8 @@ public:
     /// Pieces shorter than that do not count.
     static constexpr int shortest = 6;
 
-    CornerFinder(ListView<BorderCorner> corners, int threshold) : corners_(corners), threshold_(threshold) {}
+    CornerFinder(ListView<BorderCorner> corners, Size size, int threshold)
+        : corners_(corners), size_(size), threshold_(threshold) {}
 
     void begin(Point p) { restart(p); }
     void add(Point p);
@@ -146,7 +147,16 @@ private:
 
     static constexpr int kept = 4;
 
+    bool at_side(const BorderPiece& piece) const {
+        const auto both = [](int a, int b, int last) {
+            return (a <= 1 && b <= 1) || (a >= last - 1 && b >= last - 1);
+        };
+        return both(piece.first.x, piece.last.x, size_.width - 1) ||
+               both(piece.first.y, piece.last.y, size_.height - 1);
+    }
+
     ListView<BorderCorner> corners_;
+    Size size_;
     int threshold_;
     Point start_;
     Point far_;
@@ -241,6 +251,19 @@ inline void CornerFinder::pair(const BorderPiece& in, const BorderPiece& out) {
     corner.threshold = threshold_;
     const std::int64_t shorter = minimum(in.length, out.length);
     corner.weight = shorter * minimum<std::int64_t>(maximum(in.length, out.length), 4 * shorter);
+    // Seldom a symbol: its corner cut off by the image.
+    if (at_side(in) || at_side(out)) corner.weight /= 8;
+    // The same one at nearly the same threshold.
+    const auto near = [](Point a, Point b) {
+        return a.x - b.x <= 3 && b.x - a.x <= 3 && a.y - b.y <= 3 && b.y - a.y <= 3;
+    };
+    for (BorderCorner& other : corners_) {
+        if (!near(other.in.last, in.last) || !near(other.out.first, out.first) ||
+            magnitude(other.threshold - threshold_) > 12)
+            continue;
+        if (corner.weight > other.weight) other = corner;
+        return;
+    }
     if (corners_.push(corner) == Status::ok) return;
     int weakest = 0;
     for (int i = 1; i < corners_.size(); ++i)
@@ -261,7 +284,7 @@ inline int follow_corners_steps(const CodeField& field, Point start, int from, i
     const std::ptrdiff_t stride = field.stride();
     const std::ptrdiff_t offset[8] = {1,  stride + 1,  stride,  stride - 1,
                                       -1, -stride - 1, -stride, 1 - stride};
-    CornerFinder finder(corners, threshold);
+    CornerFinder finder(corners, field.size(), threshold);
     finder.begin(start);
     Point at = start;
     int light = from;

@@ -94,10 +94,6 @@ struct FrameOptions {
     int gap = 205;  ///< of light that ends a solid line, in 1/256 of its thickness
 };
 
-/// Finds the frame that begins at a corner. not_found where no solid or dashed lines are.
-inline Result<DataMatrixFrame> find_frame(const CodeField& field, const BorderCorner& corner,
-                                          const FrameOptions& options, const FrameScratch& scratch);
-
 // ---- Implementation ---------------------------------------------------------------
 
 constexpr Result<Place> crossing(const EdgeLine& a, const EdgeLine& b) {
@@ -132,7 +128,7 @@ constexpr bool is_side(int modules) {
     return false;
 }
 
-/// One try to find a frame; its parts share the levels and the size of a module.
+/// Finds the frame that begins at a corner; its parts share the levels and the size of a module.
 class FrameFinder {
 public:
     FrameFinder(const CodeField& field, const BorderCorner& corner, const FrameOptions& options,
@@ -143,7 +139,10 @@ public:
           threshold_(16 * corner.threshold - 8),
           largest_(256 * (field.size().width + field.size().height)) {}
 
-    Result<DataMatrixFrame> find(const BorderCorner& corner);
+    /// The two solid lines. not_found where they are none.
+    Status find_arms(const BorderCorner& corner);
+    /// The rest, with modules of that share of the solid lines' thickness, in 1/256.
+    Result<DataMatrixFrame> find(int share);
 
 private:
     /// A solid line, away from the corner.
@@ -165,6 +164,8 @@ private:
     bool find_dashes(const Arm& from, const Arm& beside, Allowed allowed, DashedLine& dashed,
                      EdgeLine& edge) const;
     EdgeLine edge_of(const EdgeLine& centre, Direction outward, const DashedLine& dashed) const;
+    /// Both begin where they meet.
+    static bool settle(Arm& first, Arm& second);
     static bool fit(Span<const Place> offsets, const EdgeLine& about, Direction aside, EdgeLine& line);
 
     CodeField field_;
@@ -174,6 +175,9 @@ private:
     int hysteresis_ = 64;
     std::int32_t largest_;
     std::int32_t module_ = 0;
+    std::int32_t thickness_ = 0;
+    Arm first_;  ///< along the way into the corner: left of a symbol seen from the front
+    Arm second_;
 };
 
 /// The line through places told by their way along a line (x) and aside of it (y); twice, the second time
@@ -485,29 +489,30 @@ inline EdgeLine FrameFinder::edge_of(const EdgeLine& centre, Direction outward,
     return edge;
 }
 
-inline Result<DataMatrixFrame> FrameFinder::find(const BorderCorner& corner) {
+inline bool FrameFinder::settle(Arm& first, Arm& second) {
+    const Result<Place> met = crossing(first.line, second.line);
+    if (!met) return false;
+    first.line.at = *met;
+    second.line.at = *met;
+    return true;
+}
+
+inline Status FrameFinder::find_arms(const BorderCorner& corner) {
     const auto chord_of = [](const BorderPiece& piece) {
         return EdgeLine{{256 * piece.first.x, 256 * piece.first.y}, direction_of(piece.x(), piece.y())};
     };
     const EdgeLine in = chord_of(corner.in);
     const EdgeLine out = chord_of(corner.out);
-    Arm first;  // along the way into the corner, so that it is left of a symbol seen from the front
-    Arm second;
+    Arm& first = first_;
+    Arm& second = second_;
     if (!refine(in, in.direction.right().reversed(), 0, 256 * corner.in.length, first.line))
         return Status::not_found;
     if (!refine(out, out.direction.right().reversed(), 0, 256 * corner.out.length, second.line))
         return Status::not_found;
-    const auto settle = [&]() {
-        const Result<Place> met = crossing(first.line, second.line);
-        if (!met) return false;
-        first.line.at = *met;
-        second.line.at = *met;
-        return true;
-    };
     first.inward = first.line.direction.right();
     first.line.direction = first.line.direction.reversed();
     second.inward = second.line.direction.right();
-    if (!settle()) return Status::not_found;
+    if (!settle(first, second)) return Status::not_found;
     const auto way_to = [](const Arm& arm, Point p) {
         return arm.line.direction.along(Place{256 * p.x, 256 * p.y} - arm.line.at);
     };
@@ -531,7 +536,7 @@ inline Result<DataMatrixFrame> FrameFinder::find(const BorderCorner& corner) {
         const EdgeLine chord_second{second.line.at + second.inward.times(128), second.line.direction};
         if (!refine(chord_first, outward_first, 0, first.length, first.line)) first = short_first;
         if (!refine(chord_second, outward_second, 0, second.length, second.line)) second = short_second;
-        if (!settle()) return Status::not_found;
+        if (!settle(first, second)) return Status::not_found;
     }
     // Levels on both sides of the edges.
     std::int64_t dark = 0;
@@ -546,6 +551,14 @@ inline Result<DataMatrixFrame> FrameFinder::find(const BorderCorner& corner) {
     }
     if (light <= dark) return Status::not_found;
     hysteresis_ = maximum(static_cast<int>((light - dark) / 14 / 5), 64);
+    thickness_ = module_;
+    return Status::ok;
+}
+
+inline Result<DataMatrixFrame> FrameFinder::find(int share) {
+    Arm first = first_;
+    Arm second = second_;
+    module_ = maximum(static_cast<std::int32_t>(std::int64_t{thickness_} * share >> 8), 200);
     DataMatrixFrame frame;
     DashedLine& above = scratch_.above;
     DashedLine& beside = scratch_.beside;
@@ -567,7 +580,7 @@ inline Result<DataMatrixFrame> FrameFinder::find(const BorderCorner& corner) {
     second.line.at = second.line.at + second.inward.times(growth);
     upper.at = upper.at - first.line.direction.times(growth);
     right.at = right.at - second.line.direction.times(growth);
-    if (!settle()) return Status::not_found;
+    if (!settle(first, second)) return Status::not_found;
     const Result<Place> a = crossing(upper, first.line);
     const Result<Place> b = crossing(right, second.line);
     const Result<Place> d = crossing(upper, right);
@@ -581,11 +594,6 @@ inline Result<DataMatrixFrame> FrameFinder::find(const BorderCorner& corner) {
     frame.bad = above.bad + beside.bad;
     frame.pitch = module_;
     return frame;
-}
-
-inline Result<DataMatrixFrame> find_frame(const CodeField& field, const BorderCorner& corner,
-                                          const FrameOptions& options, const FrameScratch& scratch) {
-    return FrameFinder(field, corner, options, scratch).find(corner);
 }
 
 }  // namespace fovea::detail

@@ -193,8 +193,15 @@ private:
     }
     void try_corner(const BorderCorner& corner) {
         const FrameScratch scratch{samples_, dashed_[0], dashed_[1], dashed_[2]};
-        const Result<DataMatrixFrame> frame = find_frame(field_, corner, {}, scratch);
-        if (frame) static_cast<void>(try_frame(*frame));
+        FrameFinder finder(field_, corner, {}, scratch);
+        if (finder.find_arms(corner) != Status::ok) return;
+        // Blur and dark neighbours make solid lines thicker than a module.
+        constexpr int shares[] = {256, 166};
+        for (const int share : shares) {
+            const Result<DataMatrixFrame> frame = finder.find(share);
+            if (frame && try_frame(*frame)) return;
+            if (done()) return;
+        }
     }
 
     /// Reads a frame as it is and, if its borders are about right, moved to where they are clearest.
