@@ -38,7 +38,8 @@ inline constexpr int data_matrix_corners = 64;
 
 /// Scratch bytes that read_data_matrix() needs.
 constexpr std::int64_t read_data_matrix_scratch(Size size) {
-    return arena_bytes<BitWord>(detail::PassedSides::words(size)) +
+    const Size half{size.width / 2, size.height / 2};
+    return half.area() + half.area() / 4 + arena_bytes<BitWord>(detail::PassedSides::words(size)) +
            arena_bytes<detail::BorderCorner>(data_matrix_corners) +
            arena_bytes<std::int16_t>(detail::frame_samples) + arena_bytes<detail::DashedLine>(3) +
            2 * max_data_matrix_side * max_data_matrix_side +
@@ -74,7 +75,10 @@ public:
           codes_(codes),
           first_(codes.size()),
           arena_(scratch),
-          passed_(arena_.take_unset<BitWord>(PassedSides::words(image.size())), image.size()),
+          halves_(arena_.take_unset<std::uint8_t>(image.size().width / 2 *
+                                                  std::int64_t{image.size().height / 2} * 5 / 4)),
+          passed_words_(arena_.take_unset<BitWord>(PassedSides::words(image.size()))),
+          passed_(passed_words_, image.size()),
           corners_(arena_.take<BorderCorner>(data_matrix_corners)),
           samples_(arena_.take_unset<std::int16_t>(frame_samples)),
           dashed_(arena_.take<DashedLine>(3)),
@@ -84,13 +88,46 @@ public:
                                             bit_words(max_data_matrix_side))) {}
 
     Status read() {
-        if (options_.polarity != CodePolarity::light_on_dark) read_polarity(false);
-        if (options_.polarity != CodePolarity::dark_on_light && !done()) read_polarity(true);
+        int level = 0;
+        while (true) {
+            if (options_.polarity != CodePolarity::light_on_dark) read_polarity(false);
+            if (options_.polarity != CodePolarity::dark_on_light && !done()) read_polarity(true);
+            // Half the size closes the gaps between dots and takes noise away.
+            const Size size = image_.size();
+            if (codes_.size() > first_ || done() || level == most_halvings) break;
+            if (minimum(size.width, size.height) < 2 * least_halved_side) break;
+            halve();
+            ++level;
+        }
+        for (int i = first_; i < codes_.size(); ++i)
+            for (SubPixelPoint& corner : codes_[i].corners)
+                for (int k = 0; k < level; ++k)
+                    corner = {SubPixel::from_raw(2 * corner.x.raw() + 128),
+                              SubPixel::from_raw(2 * corner.y.raw() + 128)};
         if (stop_ != Status::ok) return stop_;
         return codes_.size() > first_ ? Status::ok : Status::not_found;
     }
 
 private:
+    static constexpr int most_halvings = 2;
+    static constexpr int least_halved_side = 24;
+
+    /// The image becomes means of two by two pixels.
+    void halve() {
+        const Size size{image_.width() / 2, image_.height() / 2};
+        const ImageView<Gray8> half(halves_.data(), size, size.width);
+        halves_ = halves_.from(size.area());
+        for (int y = 0; y < size.height; ++y) {
+            const Gray8* upper = image_.row(2 * y);
+            const Gray8* lower = image_.row(2 * y + 1);
+            Gray8* to = half.row(y);
+            for (int x = 0; x < size.width; ++x)
+                to[x] = static_cast<Gray8>(
+                    (upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1] + 2) >> 2);
+        }
+        image_ = half;
+        passed_ = PassedSides(passed_words_.first(PassedSides::words(size)), size);
+    }
     bool done() const { return stop_ != Status::ok || codes_.size() - first_ >= options_.most_codes; }
 
     /// Rows in an order that soon meets what is large, and in the end every symbol.
@@ -423,6 +460,8 @@ private:
     ListView<Code>& codes_;
     int first_;
     Arena arena_;
+    Span<std::uint8_t> halves_;
+    Span<BitWord> passed_words_;
     PassedSides passed_;
     Span<BorderCorner> corners_;
     Span<std::int16_t> samples_;
