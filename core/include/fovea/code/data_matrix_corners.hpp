@@ -56,31 +56,28 @@ public:
     int sample(std::int32_t x, std::int32_t y) const {
         const int left = x >> 8;
         const int top = y >> 8;
-        const int a = x & 255;
-        const int b = y & 255;
-        int p00;
-        int p10;
-        int p01;
-        int p11;
-        if (left >= 0 && top >= 0 && left + 1 < image_.width() && top + 1 < image_.height()) {
-            const Gray8* upper = image_.row(top) + left;
-            const Gray8* lower = image_.row(top + 1) + left;
-            p00 = upper[0] ^ flip_;
-            p10 = upper[1] ^ flip_;
-            p01 = lower[0] ^ flip_;
-            p11 = lower[1] ^ flip_;
-        } else {
-            p00 = pixel(left, top);
-            p10 = pixel(left + 1, top);
-            p01 = pixel(left, top + 1);
-            p11 = pixel(left + 1, top + 1);
-        }
-        const int upper = p00 * (256 - a) + p10 * a;
-        const int lower = p01 * (256 - a) + p11 * a;
-        return (upper * (256 - b) + lower * b) >> 12;
+        if (left < 0 || top < 0 || left >= image_.width() - 1 || top >= image_.height() - 1)
+            return sample_at_side(x, y);
+        const Gray8* upper = image_.row(top) + left;
+        const Gray8* lower = image_.row(top + 1) + left;
+        return between(upper[0], upper[1], lower[0], lower[1], x & 255, y & 255);
     }
 
 private:
+    int between(int p00, int p10, int p01, int p11, int a, int b) const {
+        const int upper = 256 * p00 + (p10 - p00) * a;
+        const int lower = 256 * p01 + (p11 - p01) * a;
+        const int value = (256 * upper + (lower - upper) * b) >> 12;
+        return flip_ != 0 ? 4080 - value : value;
+    }
+    int sample_at_side(std::int32_t x, std::int32_t y) const {
+        const auto raw = [&](int i, int j) { return pixel(i, j) ^ flip_; };
+        const int left = x >> 8;
+        const int top = y >> 8;
+        return between(raw(left, top), raw(left + 1, top), raw(left, top + 1), raw(left + 1, top + 1),
+                       x & 255, y & 255);
+    }
+
     ImageView<const Gray8> image_;
     Gray8 flip_ = 0;
 };

@@ -152,10 +152,11 @@ private:
         std::int32_t length = 0;
     };
     static constexpr int probes = 24;
+    static constexpr int least_score = 16;  ///< two good periods, and nothing bad
     static constexpr int most_tries = 200;  ///< of the way of a dashed line, to each side
 
     int value(Place p) const { return field_.sample(p.x, p.y); }
-    bool refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to,
+    bool refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to, int most_places,
                 EdgeLine& line) const;
     std::int32_t thickness(const Arm& arm, std::int32_t from, std::int32_t to) const;
     std::int32_t walk(const Arm& arm) const;
@@ -223,12 +224,12 @@ inline bool FrameFinder::fit(Span<const Place> offsets, const EdgeLine& about, D
 
 /// The edge near a chord that dark pixels' centres gave, between two ways along it.
 inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to,
-                                EdgeLine& line) const {
+                                int most_places, EdgeLine& line) const {
     constexpr int steps = 10;
     Place offsets[probes];
     int count = 0;
     const std::int32_t margin = (to - from) / 16;
-    const int places = clamp((to - from) >> 9, 6, probes);
+    const int places = clamp((to - from) >> 9, 6, most_places);
     for (int i = 0; i < places; ++i) {
         const std::int32_t along =
             from + margin +
@@ -261,7 +262,7 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
 inline std::int32_t FrameFinder::thickness(const Arm& arm, std::int32_t from, std::int32_t to) const {
     std::int32_t runs[probes];
     const std::int32_t most = maximum((to - from) / 4, 512);
-    const std::int32_t step = clamp(most / 64, 32, 256);
+    const std::int32_t step = clamp(most / 32, 64, 512);
     for (int i = 0; i < probes; ++i) {
         const std::int32_t along =
             from + static_cast<std::int32_t>(std::int64_t{to - from} * (2 * i + 1) / (2 * probes));
@@ -414,50 +415,61 @@ bool FrameFinder::find_dashes(const Arm& from, const Arm& beside, Allowed allowe
     const std::int32_t step = maximum<std::int32_t>(
         static_cast<std::int32_t>((std::int64_t{module_} << 14) / (3 * std::int64_t{beside.length})), 16);
     const int tries = minimum<int>((1 << 14) * 2 / 5 / step, most_tries);
-    const std::int32_t longest = beside.length;
     const auto way_of = [&](int j) {
         return direction_of(beside.line.direction.x - (std::int64_t{from.line.direction.x} * j * step >> 14),
                             beside.line.direction.y - (std::int64_t{from.line.direction.y} * j * step >> 14));
     };
     DashedLine& now = scratch_.trial;
-    int best = 0;
-    int best_j = 0;
-    int best_modules = 0;
-    bool best_even = false;
-    int least_j = 0;
-    int most_j = 0;
-    for (int n = 0; n <= 2 * tries; ++n) {
-        const int j = n % 2 == 0 ? -n / 2 : (n + 1) / 2;
-        if (best_even && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 3) break;
-        follow_dashes(start, way_of(j), longest, now);
+    const auto follow = [&](int j) {
+        follow_dashes(start, way_of(j), beside.length, now);
         // A slight tilt is likelier than a strong one.
         now.score -= (j < 0 ? -j : j) / 4;
-        if (now.score < 16 || !allowed(now.modules())) continue;
-        if (now.modules() == best_modules && (j == least_j - 1 || j == most_j + 1) && now.score > best - 6) {
-            // Neighbours that say the same widen the range.
-            least_j = minimum(least_j, j);
-            most_j = maximum(most_j, j);
-            best = maximum(best, now.score);
-            continue;
-        }
-        if (now.score <= best) continue;
+        return now.score >= least_score && allowed(now.modules());
+    };
+    // The first dashes are met at any tilt.
+    bool any = false;
+    for (int j = -tries / 2; j <= tries / 2 && !any; j += maximum(tries / 2, 1)) {
+        static_cast<void>(follow(j));
+        any = now.changes >= 3;
+    }
+    if (!any) return false;
+    int best = 0;
+    int best_j = 0;
+    bool even = false;
+    // 0, 1, -1, 2, -2, or twice that where dashes are large enough to be met off their middle.
+    const int stride = module_ < 4 * 256 ? 1 : 2;
+    for (int n = 0; n * stride <= 2 * tries; ++n) {
+        const int j = stride * (n % 2 == 0 ? -n / 2 : (n + 1) / 2);
+        if (even && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 2) break;
+        if (!follow(j) || now.score <= best) continue;
         best = now.score;
-        best_j = least_j = most_j = j;
-        best_modules = now.modules();
-        best_even = now.even;
+        best_j = j;
+        even = now.even;
     }
-    if (best < 16) return false;
-    const int middle_2 = least_j + most_j;
-    const Direction way =
-        direction_of(beside.line.direction.x - (std::int64_t{from.line.direction.x} * middle_2 * step >> 15),
-                     beside.line.direction.y - (std::int64_t{from.line.direction.y} * middle_2 * step >> 15));
-    follow_dashes(start, way, longest, dashed);
-    if (dashed.modules() != best_modules || dashed.score < best - 12) {
-        follow_dashes(start, way_of(best_j), longest, dashed);
-        edge = edge_of({start, way_of(best_j)}, from.line.direction, dashed);
-    } else {
-        edge = edge_of({start, way}, from.line.direction, dashed);
+    if (best == 0) return false;
+    // The middle of all ways that say the same.
+    static_cast<void>(follow(best_j));
+    const int modules = now.modules();
+    int ends[2] = {best_j, best_j};
+    for (int side = 0; side < 2; ++side) {
+        const int move = side == 0 ? -1 : 1;
+        for (int j = best_j + move; (j - best_j) * move <= 6; j += move) {
+            if (!follow(j) || now.modules() != modules || now.score < best - 6) break;
+            ends[side] = j;
+        }
     }
+    const int middle_2 = ends[0] + ends[1];
+    const auto half = [&](std::int32_t direction, std::int32_t aside) {
+        return direction - (std::int64_t{aside} * middle_2 * step >> 15);
+    };
+    Direction way = direction_of(half(beside.line.direction.x, from.line.direction.x),
+                                 half(beside.line.direction.y, from.line.direction.y));
+    follow_dashes(start, way, beside.length, dashed);
+    if (dashed.modules() != modules || dashed.score < best - 12) {
+        way = way_of(best_j);
+        follow_dashes(start, way, beside.length, dashed);
+    }
+    edge = edge_of({start, way}, from.line.direction, dashed);
     return true;
 }
 
@@ -505,9 +517,9 @@ inline Status FrameFinder::find_arms(const BorderCorner& corner) {
     const EdgeLine out = chord_of(corner.out);
     Arm& first = first_;
     Arm& second = second_;
-    if (!refine(in, in.direction.right().reversed(), 0, 256 * corner.in.length, first.line))
+    if (!refine(in, in.direction.right().reversed(), 0, 256 * corner.in.length, 10, first.line))
         return Status::not_found;
-    if (!refine(out, out.direction.right().reversed(), 0, 256 * corner.out.length, second.line))
+    if (!refine(out, out.direction.right().reversed(), 0, 256 * corner.out.length, 10, second.line))
         return Status::not_found;
     first.inward = first.line.direction.right();
     first.line.direction = first.line.direction.reversed();
@@ -534,8 +546,9 @@ inline Status FrameFinder::find_arms(const BorderCorner& corner) {
         const Direction outward_second = second.inward.reversed();
         const EdgeLine chord_first{first.line.at + first.inward.times(128), first.line.direction};
         const EdgeLine chord_second{second.line.at + second.inward.times(128), second.line.direction};
-        if (!refine(chord_first, outward_first, 0, first.length, first.line)) first = short_first;
-        if (!refine(chord_second, outward_second, 0, second.length, second.line)) second = short_second;
+        if (!refine(chord_first, outward_first, 0, first.length, probes, first.line)) first = short_first;
+        if (!refine(chord_second, outward_second, 0, second.length, probes, second.line))
+            second = short_second;
         if (!settle(first, second)) return Status::not_found;
     }
     // Levels on both sides of the edges.
