@@ -20,8 +20,8 @@ BitView<BitWord> upper_left(Modules& modules, const DataMatrixSize& size) {
 }
 
 TEST(DataMatrixPlacement, PutsTheFirstCodewordsWhereTheStandardShowsThem) {
-    // ISO/IEC 16022, annex F, the matrix of 8x8: codeword 1 ends at row 4 and column 0, codeword 2 begins at row 0
-    // and column 0.
+    // ISO/IEC 16022, annex F, the matrix of 8x8: codeword 1 ends at row 4 and column 0, codeword 2 begins at
+    // row 0 and column 0.
     const DataMatrixSize& size = data_matrix_sizes[0];
     std::vector<BitWord> scratch(data_matrix_placement_scratch);
     const auto modules_of = [&](int codeword, int bit) {

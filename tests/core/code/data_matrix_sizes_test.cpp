@@ -21,7 +21,8 @@ TEST(DataMatrixSizes, BlocksFitTheErrorCorrection) {
         EXPECT_EQ(size.parity % size.blocks, 0);
         EXPECT_LE(size.block_parity(), max_reed_solomon_parity);
         EXPECT_LE((size.codewords() + size.blocks - 1) / size.blocks, max_reed_solomon_block);
-        // The data of block b are the codewords b, b + blocks and so on, and all but those of 144x144 are alike.
+        // The data of block b are the codewords b, b + blocks and so on, and all but those of 144x144 are
+        // alike.
         EXPECT_EQ(size.data % size.blocks == 0, size.rows != 144);
     }
 }

@@ -35,8 +35,8 @@ struct DataMatrixReading {
 ///
 /// Shapes   modules of one of data_matrix_sizes, upright, without quiet zone
 /// Scratch  data_matrix_decode_scratch bytes, undefined afterwards
-/// Errors   empty_image; size_mismatch for no size of a symbol; scratch_too_small; not_found where more than a
-///          fifth of the borders is wrong; undecided where errors cannot be corrected; those of
+/// Errors   empty_image; size_mismatch for no size of a symbol; scratch_too_small; not_found where more than
+///          a fifth of the borders is wrong; undecided where errors cannot be corrected; those of
 ///          data_matrix_text()
 /// Source   ISO/IEC 16022, 5.7 and annex E; unused correction as ISO/IEC 15415, 7.8.8
 inline Result<DataMatrixReading> data_matrix_decode(BitView<const BitWord> modules,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 
 #include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
@@ -91,8 +92,8 @@ inline void DataMatrixEncodation::relax(Costs& to, int at, int state, int cost, 
 inline void DataMatrixEncodation::switch_at(Costs& costs, int at) {
     for (const int from : {int{c40}, int{text}, int{x12}})
         relax(costs, at, ascii, costs.of[from] + 1, from, 0);
-    // EDIFACT is only left in the third or fourth place of a group, so that a reader never takes the group for
-    // the end of the symbol.
+    // EDIFACT is only left in the third or fourth place of a group, so that a reader never takes the group
+    // for the end of the symbol.
     for (const int from : {edifact + 2, edifact + 3}) relax(costs, at, ascii, costs.of[from] + 3, from, 0);
     relax(costs, at, ascii, costs.of[base_256], base_256, 0);
     for (const int into : {int{c40}, int{text}, int{x12}, int{edifact}})

@@ -40,8 +40,8 @@ constexpr std::int64_t data_matrix_encode_scratch(std::int64_t text_bytes) {
            arena_bytes<BitWord>(data_matrix_placement_scratch);
 }
 
-/// Writes the modules of a symbol, dark being 1, into the upper left of a binary image and answers their size.
-/// The quiet zone, a module on each side, is the caller's.
+/// Writes the modules of a symbol, dark being 1, into the upper left of a binary image and answers their
+/// size. The quiet zone, a module on each side, is the caller's.
 ///
 /// Shapes   text 1 to max_data_matrix_text bytes; modules as large as the symbol or larger
 /// Scratch  data_matrix_encode_scratch(text.size()) bytes, undefined afterwards

@@ -6,7 +6,8 @@
 #include <cstdint>
 
 #include <fovea/base/span.hpp>
-#include <fovea/code/data_matrix_frame.hpp>
+#include <fovea/code/data_matrix_corners.hpp>
+#include <fovea/code/data_matrix_lines.hpp>
 #include <fovea/code/data_matrix_placement.hpp>
 #include <fovea/code/data_matrix_sizes.hpp>
 #include <fovea/image/bit_view.hpp>
@@ -22,14 +23,14 @@ namespace fovea::detail {
 class SquareToQuad {
 public:
     /// Corners in the order (0, 0), (1, 0), (1, 1), (0, 1). there() tells whether it is convex.
-    SquareToQuad(Place p0, Place p1, Place p2, Place p3);
+    SquareToQuad(EdgePlace p0, EdgePlace p1, EdgePlace p2, EdgePlace p3);
 
     bool there() const { return there_; }
     /// u and v in 1/65536, from -1/2 to 3/2.
-    Place operator()(std::int32_t u, std::int32_t v) const;
+    EdgePlace operator()(std::int32_t u, std::int32_t v) const;
 
 private:
-    Place origin_;
+    EdgePlace origin_;
     // In 1/65536 px, and 2^-20 for the divisor: |g| and |h| are below 4.
     std::int64_t ax_ = 0;
     std::int64_t bx_ = 0;
@@ -57,11 +58,13 @@ inline void classify_modules(Span<const std::uint8_t> values, const DataMatrixSi
 
 // ---- Implementation ---------------------------------------------------------------
 
-inline SquareToQuad::SquareToQuad(Place p0, Place p1, Place p2, Place p3) : origin_(p0) {
-    const Place d1 = p1 - p2;
-    const Place d2 = p3 - p2;
-    const Place s = p0 - p1 + p2 - p3;
-    const auto cross = [](Place a, Place b) { return std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x; };
+inline SquareToQuad::SquareToQuad(EdgePlace p0, EdgePlace p1, EdgePlace p2, EdgePlace p3) : origin_(p0) {
+    const EdgePlace d1 = p1 - p2;
+    const EdgePlace d2 = p3 - p2;
+    const EdgePlace s = p0 - p1 + p2 - p3;
+    const auto cross = [](EdgePlace a, EdgePlace b) {
+        return std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
+    };
     // Sides of 2^25 make products of 2^51, and 2^12 more before the division.
     const std::int64_t w = cross(d1, d2);
     const std::int64_t turns[3] = {cross(p1 - p0, p3 - p0), cross(p2 - p1, p0 - p1), cross(p0 - p3, p2 - p3)};
@@ -91,17 +94,17 @@ inline SquareToQuad::SquareToQuad(Place p0, Place p1, Place p2, Place p3) : orig
     there_ = true;
 }
 
-inline Place SquareToQuad::operator()(std::int32_t u, std::int32_t v) const {
+inline EdgePlace SquareToQuad::operator()(std::int32_t u, std::int32_t v) const {
     // Numerators of 2^35 and 17 bits, then shifted to 2^36 + 12.
     const std::int64_t x = (ax_ * u + bx_ * v) >> 16;
     const std::int64_t y = (ay_ * u + by_ * v) >> 16;
     const std::int64_t divisor = (std::int64_t{1} << 20) + ((g_ * u + h_ * v) >> 16);
     if (divisor == 1 << 20)
-        return origin_ + Place{static_cast<std::int32_t>(x >> 8), static_cast<std::int32_t>(y >> 8)};
+        return origin_ + EdgePlace{static_cast<std::int32_t>(x >> 8), static_cast<std::int32_t>(y >> 8)};
     const std::int64_t by = maximum<std::int64_t>(divisor, 1 << 16);
     constexpr std::int64_t most = std::int64_t{1} << 24;
-    return origin_ + Place{static_cast<std::int32_t>(clamp(x * 4096 / by, -most, most)),
-                           static_cast<std::int32_t>(clamp(y * 4096 / by, -most, most))};
+    return origin_ + EdgePlace{static_cast<std::int32_t>(clamp(x * 4096 / by, -most, most)),
+                               static_cast<std::int32_t>(clamp(y * 4096 / by, -most, most))};
 }
 
 inline void sample_modules(const CodeField& field, const SquareToQuad& map, int rows, int columns,
@@ -111,15 +114,16 @@ inline void sample_modules(const CodeField& field, const SquareToQuad& map, int 
     const std::int32_t aside_u = 65536 / (6 * columns);
     const std::int32_t aside_v = 65536 / (6 * rows);
     for (int y = 0; y < rows; ++y) {
-        const std::int32_t v = static_cast<std::int32_t>((std::int64_t{2 * y + 1} << 16) / (2 * rows));
+        const std::int32_t v = static_cast<std::int32_t>((std::int64_t{2 * y + 1} * 65536) / (2 * rows));
         for (int x = 0; x < columns; ++x) {
-            const std::int32_t u = static_cast<std::int32_t>((std::int64_t{2 * x + 1} << 16) / (2 * columns));
-            const Place p = map(u, v);
+            const std::int32_t u =
+                static_cast<std::int32_t>((std::int64_t{2 * x + 1} * 65536) / (2 * columns));
+            const EdgePlace p = map(u, v);
             int sum = field.sample(p.x, p.y);
             if (wide) {
-                const Place q[4] = {map(u - aside_u, v - aside_v), map(u + aside_u, v - aside_v),
-                                    map(u - aside_u, v + aside_v), map(u + aside_u, v + aside_v)};
-                for (const Place place : q) sum += field.sample(place.x, place.y);
+                const EdgePlace q[4] = {map(u - aside_u, v - aside_v), map(u + aside_u, v - aside_v),
+                                        map(u - aside_u, v + aside_v), map(u + aside_u, v + aside_v)};
+                for (const EdgePlace place : q) sum += field.sample(place.x, place.y);
                 sum /= 5;
             }
             values[std::ptrdiff_t{y} * columns + x] = static_cast<std::uint8_t>(sum >> 4);

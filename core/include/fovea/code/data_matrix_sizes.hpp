@@ -35,8 +35,8 @@ struct DataMatrixSize {
 
 /// All sizes: the 24 squares, the 6 rectangles, the 18 rectangles of the extension, each by data codewords.
 ///
-/// Source  ISO/IEC 16022, 5.5, table 7; ISO/IEC 21471, table 1. Blocks of 144x144 are not alike: 8 of 156 data
-///         codewords and 2 of 155, which is what codeword i in block i % 10 gives, parity included
+/// Source  ISO/IEC 16022, 5.5, table 7; ISO/IEC 21471, table 1. Blocks of 144x144 are not alike: 8 of 156
+///         data codewords and 2 of 155, which is what codeword i in block i % 10 gives, parity included
 inline constexpr DataMatrixSize data_matrix_sizes[] = {
     {10, 10, 1, 1, 3, 5, 1},        {12, 12, 1, 1, 5, 7, 1},        {14, 14, 1, 1, 8, 10, 1},
     {16, 16, 1, 1, 12, 12, 1},      {18, 18, 1, 1, 18, 14, 1},      {20, 20, 1, 1, 22, 18, 1},

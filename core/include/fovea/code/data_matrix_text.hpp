@@ -29,8 +29,8 @@ struct DataMatrixMessage {
 /// Shapes  1 to max_data_matrix_data codewords
 /// Units   bytes; upper shift gives 128 to 255. FNC1 is GS (29) but in the first or second place, where
 ///         aim_digit tells of it. Macros 05 and 06 become the header and trailer they stand for
-/// Errors  malformed for codewords that mean nothing where they stand; buffer_too_small; capacity_exceeded for
-///         more than most_text_segments interpretations
+/// Errors  malformed for codewords that mean nothing where they stand; buffer_too_small; capacity_exceeded
+///         for more than most_text_segments interpretations
 /// Source  ISO/IEC 16022, 5.2.4 to 5.2.9 and 5.4 to 5.6. A last codeword 254 in ASCII is passed over: some
 ///         encoders unlatch there
 inline Result<DataMatrixMessage> data_matrix_text(Span<const std::uint8_t> codewords, CodeText& text);

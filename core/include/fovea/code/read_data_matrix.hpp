@@ -11,10 +11,14 @@
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/code/code.hpp>
+#include <fovea/code/data_matrix_clarity.hpp>
 #include <fovea/code/data_matrix_corners.hpp>
+#include <fovea/code/data_matrix_dashes.hpp>
 #include <fovea/code/data_matrix_decode.hpp>
 #include <fovea/code/data_matrix_frame.hpp>
+#include <fovea/code/data_matrix_grade.hpp>
 #include <fovea/code/data_matrix_grid.hpp>
+#include <fovea/code/data_matrix_lines.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 
@@ -41,7 +45,7 @@ constexpr std::int64_t read_data_matrix_scratch(Size size) {
     const Size half{size.width / 2, size.height / 2};
     return half.area() + half.area() / 4 + arena_bytes<BitWord>(detail::PassedSides::words(size)) +
            arena_bytes<detail::BorderCorner>(data_matrix_corners) +
-           arena_bytes<std::int16_t>(detail::frame_samples) + arena_bytes<detail::DashedLine>(3) +
+           arena_bytes<std::int16_t>(detail::dash_samples) + arena_bytes<detail::DashedLine>(3) +
            2 * max_data_matrix_side * max_data_matrix_side +
            arena_bytes<BitWord>(std::int64_t{max_data_matrix_side} * bit_words(max_data_matrix_side)) +
            data_matrix_decode_scratch;
@@ -54,9 +58,9 @@ constexpr std::int64_t read_data_matrix_scratch(Size size) {
 /// Scratch  read_data_matrix_scratch(image.size()) bytes, undefined afterwards
 /// Time     bounded: every border is walked once along each side, and of a part of the image at most
 ///          data_matrix_corners corners are looked at
-/// Errors   empty_image; image_too_large above max_image_side; bad_argument; scratch_too_small; not_found, the
-///          lists untouched; capacity_exceeded when codes are full before all were read; buffer_too_small when
-///          the text is
+/// Errors   empty_image; image_too_large above max_image_side; bad_argument; scratch_too_small; not_found,
+///          the lists untouched; capacity_exceeded when codes are full before all were read; buffer_too_small
+///          when the text is
 /// Source   ISO/IEC 16022; grades as far as a gray image allows after ISO/IEC 15415
 inline Status read_data_matrix(ImageView<const Gray8> image, const ReadDataMatrixOptions& options,
                                Span<std::uint8_t> scratch, CodeText& text, ListView<Code>& codes);
@@ -80,7 +84,7 @@ public:
           passed_words_(arena_.take_unset<BitWord>(PassedSides::words(image.size()))),
           passed_(passed_words_, image.size()),
           corners_(arena_.take<BorderCorner>(data_matrix_corners)),
-          samples_(arena_.take_unset<std::int16_t>(frame_samples)),
+          samples_(arena_.take_unset<std::int16_t>(dash_samples)),
           dashed_(arena_.take<DashedLine>(3)),
           values_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
           sharpened_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
@@ -229,7 +233,7 @@ private:
         count_ = 0;
     }
     void try_corner(const BorderCorner& corner) {
-        const FrameScratch scratch{samples_, dashed_[0], dashed_[1], dashed_[2]};
+        const FrameScratch scratch{{samples_, dashed_[0]}, dashed_[1], dashed_[2]};
         FrameFinder finder(field_, corner, {}, scratch);
         if (finder.find_arms(corner) != Status::ok) return;
         // Blur and dark neighbours make solid lines thicker than a module.
@@ -251,77 +255,15 @@ private:
         }
         if (size == nullptr) return false;
         if (mirrored) {
-            const Place upper = frame.upper;
+            const EdgePlace upper = frame.upper;
             frame.upper = frame.right;
             frame.right = upper;
         }
         if (try_grid(frame, *size, mirrored)) return true;
         if (done()) return false;
-        if (!clearer(frame, *size)) return false;
+        if (!make_clearer(field_, *size, frame)) return false;
         return try_grid(frame, *size, mirrored);
     }
-    static SquareToQuad map_of(const DataMatrixFrame& frame) {
-        return SquareToQuad(frame.upper, frame.opposite, frame.right, frame.corner);
-    }
-
-    /// How well the borders stand out: light less dark ones, per module.
-    int clarity(const DataMatrixFrame& frame, const DataMatrixSize& size) const {
-        const SquareToQuad map = map_of(frame);
-        if (!map.there()) return -5000;
-        std::int64_t sum = 0;
-        int count = 0;
-        for (int y = 0; y < size.rows; ++y) {
-            const int row = y % (size.region_rows() + 2);
-            const bool whole = row == 0 || row == size.region_rows() + 1;
-            for (int x = 0; x < size.columns; ++x) {
-                const DataMatrixModule module = data_matrix_border(size, x, y);
-                if (module == DataMatrixModule::data) {
-                    // On to the region's last column.
-                    if (!whole) x += size.region_columns() - 1;
-                    continue;
-                }
-                const Place p =
-                    map(static_cast<std::int32_t>((std::int64_t{2 * x + 1} << 16) / (2 * size.columns)),
-                        static_cast<std::int32_t>((std::int64_t{2 * y + 1} << 16) / (2 * size.rows)));
-                const int value = field_.sample(p.x, p.y);
-                sum += module == DataMatrixModule::light ? value : -value;
-                ++count;
-            }
-        }
-        return static_cast<int>(sum / count);
-    }
-    /// Moves corners by parts of a module while that makes the borders clearer.
-    bool clearer(DataMatrixFrame& frame, const DataMatrixSize& size) const {
-        const std::int32_t module = module_of(frame, size);
-        int best = clarity(frame, size);
-        const int begin = best;
-        Place* const corners[4] = {&frame.opposite, &frame.upper, &frame.right, &frame.corner};
-        for (std::int32_t move = module / 2; move >= maximum(module / 8, 24); move /= 2) {
-            const Place ways[4] = {{move, 0}, {-move, 0}, {0, move}, {0, -move}};
-            for (int round = 0; round < 2; ++round) {
-                const int before = best;
-                for (Place* corner : corners) {
-                    for (const Place way : ways) {
-                        const Place was = *corner;
-                        *corner = was + way;
-                        const int now = clarity(frame, size);
-                        if (now > best) {
-                            best = now;
-                        } else {
-                            *corner = was;
-                        }
-                    }
-                }
-                if (best == before) break;
-            }
-        }
-        return best > begin;
-    }
-    static std::int32_t module_of(const DataMatrixFrame& frame, const DataMatrixSize& size) {
-        const Place across = frame.right - frame.corner;
-        return static_cast<std::int32_t>(hypotenuse(across.x, across.y) / size.columns);
-    }
-
     bool try_grid(const DataMatrixFrame& frame, const DataMatrixSize& size, bool mirrored) {
         const SquareToQuad map = map_of(frame);
         if (!map.there()) return false;
@@ -378,80 +320,19 @@ private:
         code.text_first = text_first;
         code.text_size = text_.size() - text_first;
         const bool turned = mirrored && size.square();
-        const Place corners[4] = {turned ? frame.right : frame.upper, frame.opposite,
-                                  turned ? frame.upper : frame.right, frame.corner};
+        const EdgePlace corners[4] = {turned ? frame.right : frame.upper, frame.opposite,
+                                      turned ? frame.upper : frame.right, frame.corner};
         for (int i = 0; i < 4; ++i)
             code.corners[i] = {SubPixel::from_raw(corners[i].x), SubPixel::from_raw(corners[i].y)};
         code.corrected_errors = reading->corrected_errors;
         code.inverted = field_.inverted();
         code.mirrored = mirrored;
-        code.grade = grade(frame, size, *reading);
+        code.grade = grade_data_matrix(field_, map_of(frame), size, values_, reading->unused_correction);
         const Status pushed = codes_.push(code);
         if (pushed == Status::ok) return true;
         text_ = before;
         stop_ = pushed;
         return false;
-    }
-
-    static std::int8_t step_grade(int value, int a, int b, int c, int d) {
-        return static_cast<std::int8_t>(value >= a   ? 4
-                                        : value >= b ? 3
-                                        : value >= c ? 2
-                                        : value >= d ? 1
-                                                     : 0);
-    }
-    /// ISO/IEC 15415, 7.8: tables 3 to 6.
-    CodeGrade grade(const DataMatrixFrame& frame, const DataMatrixSize& size,
-                    const DataMatrixReading& reading) const {
-        CodeGrade grade;
-        const int count = size.rows * size.columns;
-        int low = 255;
-        int high = 0;
-        for (int i = 0; i < count; ++i) {
-            low = minimum<int>(low, values_[i]);
-            high = maximum<int>(high, values_[i]);
-        }
-        const int contrast = maximum(high - low, 1);
-        grade.symbol_contrast = step_grade(100 * contrast / 255, 70, 55, 40, 20);
-        // Twice the way from the threshold, of the contrast; a twentieth of the modules may be worse.
-        const int threshold = (high + low) / 2;
-        int worse[4] = {};
-        for (int i = 0; i < count; ++i) {
-            const int way =
-                200 * (values_[i] > threshold ? values_[i] - threshold : threshold - values_[i]) / contrast;
-            const int of = step_grade(way, 50, 40, 30, 20);
-            for (int k = of; k < 4; ++k) ++worse[k];
-        }
-        int modulation = 4;
-        while (modulation > 0 && worse[modulation - 1] * 20 > count) --modulation;
-        grade.modulation = static_cast<std::int8_t>(modulation);
-        grade.unused_error_correction = step_grade(reading.unused_correction, 62, 50, 37, 25);
-        grade.quiet_zone = quiet_zone(frame, size, threshold);
-        grade.overall = minimum(minimum(grade.symbol_contrast, grade.modulation),
-                                minimum(grade.unused_error_correction, grade.quiet_zone));
-        return grade;
-    }
-    /// By how much of the ring of a module around the symbol is light.
-    std::int8_t quiet_zone(const DataMatrixFrame& frame, const DataMatrixSize& size, int threshold) const {
-        const SquareToQuad map = map_of(frame);
-        int light = 0;
-        int all = 0;
-        const auto look = [&](int x, int y) {
-            const Place p =
-                map(static_cast<std::int32_t>((std::int64_t{2 * x + 1} << 16) / (2 * size.columns)),
-                    static_cast<std::int32_t>((std::int64_t{2 * y + 1} << 16) / (2 * size.rows)));
-            ++all;
-            light += field_.sample(p.x, p.y) > 16 * threshold ? 1 : 0;
-        };
-        for (int x = -1; x <= size.columns; ++x) {
-            look(x, -1);
-            look(x, size.rows);
-        }
-        for (int y = 0; y < size.rows; ++y) {
-            look(-1, y);
-            look(size.columns, y);
-        }
-        return step_grade(100 * light / all, 98, 95, 90, 80);
     }
 
     ImageView<const Gray8> image_;
