@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+//
+// The frame of a Data Matrix: from a corner to its two solid lines, its two dashed ones, and its modules.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/order.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/code/data_matrix_corners.hpp>
+#include <fovea/code/data_matrix_dashes.hpp>
+#include <fovea/code/data_matrix_lines.hpp>
+#include <fovea/code/data_matrix_sizes.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea::detail {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// Four corners, where the solid lines meet, where they end, and opposite; and how many modules lie between.
+struct DataMatrixFrame {
+    EdgePlace corner;
+    EdgePlace upper;  ///< the end of the line that stands left of a symbol seen from the front
+    EdgePlace right;  ///< the end of the line below it
+    EdgePlace opposite;
+    int rows = 0;
+    int columns = 0;
+    int bad = 0;             ///< periods of the dashed lines that are not like the others
+    std::int32_t pitch = 0;  ///< about the side of a module
+};
+
+/// Scratch of FrameFinder.
+struct FrameScratch {
+    DashScratch dash;
+    DashedLine& above;
+    DashedLine& beside;
+};
+
+struct FrameOptions {
+    int gap = 205;  ///< of light that ends a solid line, in 1/256 of its thickness
+};
+
+/// Finds the frame that begins at a corner; its parts share the levels and the size of a module.
+class FrameFinder {
+public:
+    FrameFinder(const CodeField& field, const BorderCorner& corner, const FrameOptions& options,
+                const FrameScratch& scratch)
+        : field_(field),
+          options_(options),
+          scratch_(scratch),
+          threshold_(16 * corner.threshold - 8),
+          largest_(256 * (field.size().width + field.size().height)) {}
+
+    /// The two solid lines. not_found where they are none.
+    Status find_arms(const BorderCorner& corner);
+    /// The rest, with modules of that share of the solid lines' thickness, in 1/256.
+    Result<DataMatrixFrame> find(int share);
+
+private:
+    static constexpr int probes = 24;
+
+    int value(EdgePlace p) const { return field_.sample(p.x, p.y); }
+    bool refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to, int most_places,
+                EdgeLine& line) const;
+    std::int32_t thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const;
+    std::int32_t walk(const SolidLine& arm) const;
+    /// Both begin where they meet.
+    static bool settle(SolidLine& first, SolidLine& second);
+
+    CodeField field_;
+    FrameOptions options_;
+    FrameScratch scratch_;
+    int threshold_;
+    int hysteresis_ = 64;
+    std::int32_t largest_;
+    std::int32_t module_ = 0;
+    std::int32_t thickness_ = 0;
+    SolidLine first_;  ///< along the way into the corner: left of a symbol seen from the front
+    SolidLine second_;
+};
+
+// ---- Implementation ---------------------------------------------------------------
+
+/// The edge near a chord that dark pixels' centres gave, between two ways along it.
+inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to,
+                                int most_places, EdgeLine& line) const {
+    constexpr int steps = 10;
+    EdgePlace offsets[probes];
+    int count = 0;
+    const std::int32_t margin = (to - from) / 16;
+    const int places = clamp((to - from) >> 9, 6, most_places);
+    for (int i = 0; i < places; ++i) {
+        const std::int32_t along =
+            from + margin +
+            static_cast<std::int32_t>(std::int64_t{to - from - 2 * margin} * i / (places - 1));
+        const EdgePlace middle = chord.at + chord.direction.times(along);
+        int levels[steps];
+        int low = 4080;
+        int high = 0;
+        for (int k = 0; k < steps; ++k) {
+            levels[k] = value(middle + outward.times(128 * k - 448));
+            low = minimum(low, levels[k]);
+            high = maximum(high, levels[k]);
+        }
+        // The middle of what is here, unless that is too little.
+        const int between = high - low > 192 ? (high + low) / 2 : threshold_;
+        std::int32_t best = 1 << 20;
+        for (int k = 1; k < steps; ++k) {
+            if (levels[k - 1] >= between || levels[k] < between) continue;
+            const std::int32_t place =
+                128 * k - 448 - 128 * (levels[k] - between) / (levels[k] - levels[k - 1]);
+            if (magnitude(place - 128) < magnitude(best - 128)) best = place;
+        }
+        if (best < 1 << 20) offsets[count++] = {along, best};
+    }
+    return 2 * count >= places && fit_edge({offsets, count}, chord, outward, line);
+}
+
+/// A quarter of the dark runs from the edge inward are shorter: about one module, as data there are light
+/// half of the time.
+inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const {
+    std::int32_t runs[probes];
+    const std::int32_t most = maximum((to - from) / 4, 512);
+    const std::int32_t step = clamp(most / 32, 64, 512);
+    for (int i = 0; i < probes; ++i) {
+        const std::int32_t along =
+            from + static_cast<std::int32_t>(std::int64_t{to - from} * (2 * i + 1) / (2 * probes));
+        const EdgePlace edge = arm.line.at + arm.line.direction.times(along);
+        const int dark = minimum(value(edge + arm.inward.times(192)), value(edge + arm.inward.times(320)));
+        const int light = value(edge - arm.inward.times(384));
+        const int between = light - dark > 128 ? (light + dark) / 2 : threshold_;
+        std::int32_t depth = 96;
+        int before = between - 1;
+        for (; depth < most; depth += step) {
+            const int now = value(edge + arm.inward.times(depth));
+            if (now >= between) {
+                depth -= step * (now - between) / maximum(now - before, 1);
+                break;
+            }
+            before = now;
+        }
+        runs[i] = depth;
+    }
+    return nth_smallest(Span<std::int32_t>(runs), probes / 4);
+}
+
+/// How far a solid line goes from the corner.
+inline std::int32_t FrameFinder::walk(const SolidLine& arm) const {
+    const std::int32_t depth = module_ / 2;
+    const std::int32_t step = maximum(module_ / 8, 64);
+    const std::int32_t gap =
+        maximum(static_cast<std::int32_t>(std::int64_t{module_} * options_.gap >> 8), 256);
+    const EdgePlace start = arm.line.at + arm.inward.times(depth);
+    const EdgePlace outside = arm.line.at - arm.inward.times(maximum(depth, 320));
+    // Levels on both sides of the edge, which follow the light along it.
+    int dark = value(start + arm.line.direction.times(module_));
+    int light = value(outside + arm.line.direction.times(module_));
+    std::int32_t end = 0;
+    int before = dark;
+    bool in_dark = true;
+    for (std::int32_t along = module_ / 2; along < largest_; along += step) {
+        const int now = value(start + arm.line.direction.times(along));
+        light = (7 * light + value(outside + arm.line.direction.times(along))) / 8;
+        const int between = (light + dark) / 2;
+        if (now < between) {
+            in_dark = true;
+            end = along;
+            dark = (7 * dark + now) / 8;
+        } else {
+            if (in_dark) end = along - (before < between ? step * (now - between) / (now - before) : step);
+            in_dark = false;
+            if (along - end > gap) break;
+        }
+        before = now;
+    }
+    return end;
+}
+
+inline bool FrameFinder::settle(SolidLine& first, SolidLine& second) {
+    const Result<EdgePlace> met = crossing(first.line, second.line);
+    if (!met) return false;
+    first.line.at = *met;
+    second.line.at = *met;
+    return true;
+}
+
+inline Status FrameFinder::find_arms(const BorderCorner& corner) {
+    const auto chord_of = [](const BorderPiece& piece) {
+        return EdgeLine{{256 * piece.first.x, 256 * piece.first.y}, direction_of(piece.x(), piece.y())};
+    };
+    const EdgeLine in = chord_of(corner.in);
+    const EdgeLine out = chord_of(corner.out);
+    SolidLine& first = first_;
+    SolidLine& second = second_;
+    if (!refine(in, in.direction.right().reversed(), 0, 256 * corner.in.length, 10, first.line))
+        return Status::not_found;
+    if (!refine(out, out.direction.right().reversed(), 0, 256 * corner.out.length, 10, second.line))
+        return Status::not_found;
+    first.inward = first.line.direction.right();
+    first.line.direction = first.line.direction.reversed();
+    second.inward = second.line.direction.right();
+    if (!settle(first, second)) return Status::not_found;
+    const auto way_to = [](const SolidLine& arm, Point p) {
+        return arm.line.direction.along(EdgePlace{256 * p.x, 256 * p.y} - arm.line.at);
+    };
+    // The thinner of the two: beside one of them the data may be dark by chance.
+    const std::int32_t thick_first = thickness(first, 0, way_to(first, corner.in.first));
+    const std::int32_t thick_second = thickness(second, 0, way_to(second, corner.out.last));
+    module_ = maximum(minimum(thick_first, thick_second), 200);
+    for (int round = 0; round < 2; ++round) {
+        first.length = walk(first);
+        second.length = walk(second);
+        // Eight modules at least, printed up to half as thick again.
+        if (2 * first.length < 9 * module_ || 2 * second.length < 9 * module_) return Status::not_found;
+        if (first.length > 200 * module_ || second.length > 200 * module_) return Status::not_found;
+        if (round == 1) break;
+        // Once more along the whole of both.
+        const SolidLine short_first = first;
+        const SolidLine short_second = second;
+        const Direction outward_first = first.inward.reversed();
+        const Direction outward_second = second.inward.reversed();
+        const EdgeLine chord_first{first.line.at + first.inward.times(128), first.line.direction};
+        const EdgeLine chord_second{second.line.at + second.inward.times(128), second.line.direction};
+        if (!refine(chord_first, outward_first, 0, first.length, probes, first.line)) first = short_first;
+        if (!refine(chord_second, outward_second, 0, second.length, probes, second.line))
+            second = short_second;
+        if (!settle(first, second)) return Status::not_found;
+    }
+    // Levels on both sides of the edges.
+    std::int64_t dark = 0;
+    std::int64_t light = 0;
+    const SolidLine* const arms[2] = {&first, &second};
+    for (const SolidLine* arm : arms) {
+        for (int i = 1; i < 8; ++i) {
+            const EdgePlace edge = arm->line.at + arm->line.direction.times(arm->length / 8 * i);
+            dark += value(edge + arm->inward.times(module_ / 2));
+            light += value(edge - arm->inward.times(maximum(module_ / 2, 384)));
+        }
+    }
+    if (light <= dark) return Status::not_found;
+    hysteresis_ = maximum(static_cast<int>((light - dark) / 14 / 5), 64);
+    thickness_ = module_;
+    return Status::ok;
+}
+
+inline Result<DataMatrixFrame> FrameFinder::find(int share) {
+    SolidLine first = first_;
+    SolidLine second = second_;
+    module_ = maximum(static_cast<std::int32_t>(std::int64_t{thickness_} * share >> 8), 200);
+    DataMatrixFrame frame;
+    DashedLine& above = scratch_.above;
+    DashedLine& beside = scratch_.beside;
+    EdgeLine upper;
+    EdgeLine right;
+    const auto with = [](int other) {
+        return [other](int n) {
+            return data_matrix_size(n, other) != nullptr || data_matrix_size(other, n) != nullptr;
+        };
+    };
+    const DashFinder dashes(field_, module_, hysteresis_, scratch_.dash);
+    if (!dashes.find(first, second, is_side, above, upper)) return Status::not_found;
+    if (!dashes.find(second, first, with(above.modules()), beside, right)) {
+        if (!dashes.find(second, first, is_side, beside, right)) return Status::not_found;
+        if (!dashes.find(first, second, with(beside.modules()), above, upper)) return Status::not_found;
+    }
+    // Print grows on all sides alike, and the grid does not.
+    const std::int32_t growth = (growth_of(above) + growth_of(beside)) / 2;
+    first.line.at = first.line.at + first.inward.times(growth);
+    second.line.at = second.line.at + second.inward.times(growth);
+    upper.at = upper.at - first.line.direction.times(growth);
+    right.at = right.at - second.line.direction.times(growth);
+    if (!settle(first, second)) return Status::not_found;
+    const Result<EdgePlace> a = crossing(upper, first.line);
+    const Result<EdgePlace> b = crossing(right, second.line);
+    const Result<EdgePlace> d = crossing(upper, right);
+    if (!a || !b || !d) return Status::not_found;
+    frame.corner = first.line.at;
+    frame.upper = *a;
+    frame.right = *b;
+    frame.opposite = *d;
+    frame.columns = above.modules();
+    frame.rows = beside.modules();
+    frame.bad = above.bad + beside.bad;
+    frame.pitch = module_;
+    return frame;
+}
+
+}  // namespace fovea::detail
