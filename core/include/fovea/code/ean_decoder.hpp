@@ -104,15 +104,19 @@ constexpr bool read_ean_digits(EanSymbol& symbol, int at, int count, bool begins
     const std::int64_t mean = symbol.width * 7;  // times modules
     for (int i = 0; i < count; ++i) {
         const std::int64_t own = symbol.between(at + 4 * i, at + 4 * i + 4);
-        // Within 3/4 and 5/4 of the mean.
-        if (!is_about(own * symbol.modules, mean, 192, 320)) return false;
+        // Within 5/8 and 3/2 of the mean.
+        if (!is_about(own * symbol.modules, mean, 160, 384)) return false;
         const std::int64_t before = i > 0 ? symbol.between(at + 4 * i - 4, at + 4 * i) : own;
         const std::int64_t behind = i + 1 < count ? symbol.between(at + 4 * i + 4, at + 4 * i + 8) : own;
-        if (!is_about(before, own, 200, 328)) return false;
-        // The neighbours' share steadies the module without hiding how it changes.
-        const std::int64_t sevenfold = (2 * own + before + behind) / 4;
+        if (!is_about(before, own, 180, 364)) return false;
+        // The neighbours' share steadies the module; where the surface bends it is wrong, and the digit's own
+        // width is right.
+        const std::int64_t shared = (2 * own + before + behind) / 4;
         EanDigit digit;
-        if (!read_ean_digit(symbol, at + 4 * i, sevenfold, begins_with_bar, digit)) return false;
+        if (!read_ean_digit(symbol, at + 4 * i, shared, begins_with_bar, digit) &&
+            !read_ean_digit(symbol, at + 4 * i, own, begins_with_bar, digit)) {
+            return false;
+        }
         values[i] = static_cast<std::uint8_t>(digit.value);
         parity = parity << 1 | static_cast<unsigned>(digit.set_b);
         symbol.error += isqrt(static_cast<std::uint32_t>(digit.error));
@@ -213,7 +217,7 @@ inline bool decode_ean_8(EanSymbol symbol, BarReading& reading) {
     if (ean_check_digit({digits, 7}) != digits[7]) return false;
     BarReading found;
     finish_ean(symbol, runs, 8, Symbology::ean_8, 7, 7, found);
-    if (found.quiet < 256 / 2) return false;
+    if (found.quiet < 256 / 3) return false;
     set_digits(found, digits, 8);
     reading = found;
     return true;
