@@ -30,6 +30,10 @@ struct BarTurn {
     std::int32_t level = 0;  ///< its brightness
 };
 
+/// Raises a profile over the mean of the samples `reach` to either side of it, which undoes some blur: twice the
+/// profile less that mean. The answer is in -4080..8160.
+inline void sharpen_bar_profile(BarProfile profile, int reach, Span<std::int16_t> sharp);
+
 /// Finds the bright and dark turning points in turn, as far as they stand out by 1/share of the contrast near
 /// them, 4 levels and 1/32 of the contrast of the line. The first sample and the last turn count as such.
 ///
@@ -153,6 +157,14 @@ inline std::int32_t steepest(BarProfile profile, BarTurn from, BarTurn to) {
 }
 
 }  // namespace detail
+
+inline void sharpen_bar_profile(BarProfile profile, int reach, Span<std::int16_t> sharp) {
+    const auto last = static_cast<int>(profile.size()) - 1;
+    for (int i = 0; i <= last; ++i) {
+        const std::int32_t mean = (profile[maximum(i - reach, 0)] + profile[minimum(i + reach, last)]) / 2;
+        sharp[i] = static_cast<std::int16_t>(2 * profile[i] - mean);
+    }
+}
 
 inline int find_bar_turns(BarProfile profile, int share, Span<std::int16_t> ranges, Span<BarTurn> turns) {
     const auto length = static_cast<int>(profile.size());

@@ -182,7 +182,12 @@ inline bool BarVotes::is_certain(int which) const {
         if (i != which && detail::is_same_place(candidates_[i], candidate.span))
             against += candidates_[i].lines;
     }
-    return candidate.lines >= bar_lines_needed(candidate.reading) + 3 * against;
+    if (candidate.lines < bar_lines_needed(candidate.reading) + 3 * against) return false;
+    if (candidate.reading.symbology != Symbology::interleaved_2_of_5) return true;
+    // A slanted line that enters through the side of a code reads the rest of it. Where lines an eighth of the
+    // length apart read the same, they came in by the front.
+    const std::int64_t spread = std::int64_t{candidate.highest_offset} - candidate.lowest_offset;
+    return spread * 8 >= detail::bar_offset(candidate.span, candidate.span).length;
 }
 
 }  // namespace fovea

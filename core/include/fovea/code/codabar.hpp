@@ -44,12 +44,15 @@ inline Status decode_codabar(BarEdges edges, int first, const BarRules& rules, B
 
 namespace detail {
 
+/// Sixteenths by which the narrowest wide run is wider than the widest narrow one.
+inline constexpr int codabar_gap = 4;
+
 /// The value of the seven runs from edge `at`, -1 if they are none. Two or three of them are wide.
 constexpr int read_codabar_character(BarEdges edges, int at, std::int64_t gain, TwoWidths& sorted) {
     int best = -1;
     TwoWidths trial;
     for (int wide = 2; wide <= 3; ++wide) {
-        if (!sort_widths(edges, at, 1, 7, wide, gain, trial)) continue;
+        if (!sort_widths(edges, at, 1, 7, wide, gain, codabar_gap, trial)) continue;
         if (best >= 0 && trial.error >= sorted.error) continue;
         for (int value = 0; value < codabar_count; ++value) {
             if (codabar_wide[value] == trial.wide) {
@@ -59,6 +62,14 @@ constexpr int read_codabar_character(BarEdges edges, int at, std::int64_t gain, 
         }
     }
     return best;
+}
+
+/// The gain that a start character shows: three of its bars and one of its spaces are narrow.
+constexpr std::int64_t codabar_gain(BarEdges edges, int at) {
+    const auto run = [&](int i) { return std::int64_t{edges[at + i + 1]} - edges[at + i]; };
+    const std::int64_t widest = maximum(maximum(run(0), run(2)), maximum(run(4), run(6)));
+    const std::int64_t space = minimum(minimum(run(1), run(3)), run(5));
+    return ((run(0) + run(2) + run(4) + run(6) - widest) / 3 - space) / 2;
 }
 
 constexpr bool finish_codabar(const BarRules& rules, int start, int stop, BarReading& reading) {
@@ -82,16 +93,10 @@ inline Status decode_codabar(BarEdges edges, int first, const BarRules& rules, B
     const std::int64_t left = std::int64_t{edges[first]} - edges[first - 1];
     const std::int64_t start_width = std::int64_t{edges[first + 7]} - edges[first];
     if (left * 2 < start_width || start_width < 10 * 128) return Status::not_found;
+    const std::int64_t gain = detail::codabar_gain(edges, first);
     TwoWidths sorted;
-    const int start = detail::read_codabar_character(edges, first, 0, sorted);
+    const int start = detail::read_codabar_character(edges, first, gain, sorted);
     if (start < 16) return Status::not_found;
-    // The start characters have one wide bar and two wide spaces.
-    std::int64_t sums[2] = {};
-    for (int i = 0; i < 7; ++i) {
-        if ((codabar_wide[start] >> (6 - i) & 1U) != 0) continue;
-        sums[i % 2] += std::int64_t{edges[first + i + 1]} - edges[first + i];
-    }
-    const std::int64_t gain = (sums[0] / 3 - sums[1]) / 2;
     const std::int64_t narrow = sorted.narrow;
 
     BarReading found;

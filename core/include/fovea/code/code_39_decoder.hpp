@@ -29,6 +29,10 @@ inline Status decode_code_39(BarEdges edges, int first, const BarRules& rules, B
 
 namespace detail {
 
+/// Sixteenths by which the narrowest wide run is wider than the widest narrow one. Half of the ways to choose
+/// three runs of nine are no character, which makes up for a small gap.
+inline constexpr int code_39_gap = 4;
+
 /// Spreads pairs into ASCII, within the reading. False if a pair has no meaning.
 constexpr bool spread_code_39(BarReading& reading) {
     int size = 0;
@@ -74,13 +78,14 @@ inline Status decode_code_39(BarEdges edges, int first, const BarRules& rules, B
     const std::int64_t start_width = std::int64_t{edges[first + 9]} - edges[first];
     // A character is of 12 to 16 narrow widths, a quiet zone of ten.
     if (left * 3 < start_width || start_width < 12 * 128) return Status::not_found;
-    TwoWidths sorted;
-    if (!sort_widths(edges, first, 1, 9, 3, 0, sorted) || sorted.wide != code_39_asterisk) {
-        return Status::not_found;
-    }
-    // Narrow bars stand at 0, 2 and 8 of the asterisk, narrow spaces at 3, 5 and 7.
+    // If this is an asterisk, narrow bars stand at 0, 2 and 8 of it and narrow spaces at 3, 5 and 7.
     const auto run = [&](int at) { return std::int64_t{edges[first + at + 1]} - edges[first + at]; };
     const std::int64_t gain = (run(0) + run(2) + run(8) - run(3) - run(5) - run(7)) / 6;
+    TwoWidths sorted;
+    if (!sort_widths(edges, first, 1, 9, 3, gain, detail::code_39_gap, sorted) ||
+        sorted.wide != code_39_asterisk) {
+        return Status::not_found;
+    }
 
     BarReading found;
     found.symbology = Symbology::code_39;
@@ -95,7 +100,7 @@ inline Status decode_code_39(BarEdges edges, int first, const BarRules& rules, B
         // Characters are equally wide; the gap between them is at most 5.3 narrow widths.
         if (!detail::is_about(width, before, 205, 320) || gap * 12 > width * 6) return Status::not_found;
         before = width;
-        if (!sort_widths(edges, at, 1, 9, 3, gain, sorted)) return Status::not_found;
+        if (!sort_widths(edges, at, 1, 9, 3, gain, detail::code_39_gap, sorted)) return Status::not_found;
         error += sorted.error;
         ++characters;
         if (sorted.wide == code_39_asterisk) break;

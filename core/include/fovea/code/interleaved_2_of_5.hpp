@@ -35,9 +35,13 @@ inline Status decode_interleaved(BarEdges edges, int first, const BarRules& rule
 
 namespace detail {
 
+/// Sixteenths by which the narrowest wide run is wider than the widest narrow one. Any two of five are a
+/// digit, so that it must be clear which.
+inline constexpr int interleaved_gap = 5;
+
 /// The digit of five bars or spaces, every second run from edge `at`; -1 if they are none.
 constexpr int read_interleaved_digit(BarEdges edges, int at, TwoWidths& sorted) {
-    if (!sort_widths(edges, at, 2, 5, 2, 0, sorted)) return -1;
+    if (!sort_widths(edges, at, 2, 5, 2, 0, interleaved_gap, sorted)) return -1;
     for (int digit = 0; digit < 10; ++digit)
         if (interleaved_wide[digit] == sorted.wide) return digit;
     return -1;

@@ -58,6 +58,7 @@ inline constexpr int most_bar_fields = 12;
 struct BarSight {
     int share;
     BarEdgeRule rule;
+    int sharpness;
 };
 
 class BarSearch {
@@ -67,6 +68,7 @@ public:
         Arena arena(scratch);
         const std::int64_t samples = most_samples(src.size());
         profile_ = arena.take_unset<std::int16_t>(samples);
+        sharp_profile_ = arena.take_unset<std::int16_t>(samples);
         ranges_ = arena.take_unset<std::int16_t>(bar_ranges(samples));
         turns_ = arena.take_unset<BarTurn>(samples);
         for (Span<std::int32_t>& edges : edges_) edges = arena.take_unset<std::int32_t>(samples + 6);
@@ -77,7 +79,7 @@ public:
     static constexpr std::int64_t most_samples(Size size) { return std::int64_t{size.width} + size.height; }
     static constexpr std::int64_t scratch_bytes(Size size) {
         const std::int64_t samples = most_samples(size);
-        return arena_bytes<std::int16_t>(samples) + arena_bytes<std::int16_t>(bar_ranges(samples)) +
+        return 2 * arena_bytes<std::int16_t>(samples) + arena_bytes<std::int16_t>(bar_ranges(samples)) +
                arena_bytes<BarTurn>(samples) + 3 * arena_bytes<std::int32_t>(samples + 6) +
                arena_bytes<BarCandidate>(most_bar_candidates) + bar_fields_scratch(size);
     }
@@ -143,21 +145,27 @@ private:
         return {{FinePixel::from_int(x), FinePixel()}, {FinePixel(), FinePixel::from_int(1)}, src_.height()};
     }
 
-    /// Scans a line, and the neighbours of what it reads.
+    /// Scans a line, and the neighbours of what it reads: as it was read first, then with all means.
     void scan_and_ask(const BarLine& line, int level, int breadth) {
-        const int before = candidate_count_;
         fresh_ = -1;
         scan(line, level, breadth);
-        static_cast<void>(before);
         if (fresh_ < 0 || done()) return;
         const int which = fresh_;
         const BarSpan span = fresh_span_;
+        ask_neighbours(which, span, level, breadth, 0);
+        if (options_.effort < 2) return;
+        for (int wide = 1; wide <= 5 && !candidates_[which].settled; wide += 2) {
+            ask_neighbours(which, span, 2, wide, wide);
+        }
+    }
+    /// Sixteen lines to both sides of a span; shift moves them, in 1/8 of their distance.
+    void ask_neighbours(int which, const BarSpan& span, int level, int breadth, int shift) {
         const std::int64_t x = std::int64_t{span.to.x.raw()} - span.from.x.raw();
         const std::int64_t y = std::int64_t{span.to.y.raw()} - span.from.y.raw();
         const std::int64_t length = maximum<std::int64_t>(hypotenuse(x, y), 256);
         const std::int64_t pace = maximum<std::int64_t>(512, length / 64);
-        for (int i = 0; i < 16 && !votes_.candidates()[which].settled; ++i) {
-            const std::int64_t away = pace * (i / 2 + 1) * (i % 2 == 0 ? 1 : -1);
+        for (int i = 0; i < 16 && !candidates_[which].settled; ++i) {
+            const std::int64_t away = pace * (i / 2 + 1) * (i % 2 == 0 ? 1 : -1) + pace * shift / 8;
             const auto moved = [&](SubPixelPoint p) {
                 p.x += SubPixel::from_raw(static_cast<std::int32_t>(-y * away / length));
                 p.y += SubPixel::from_raw(static_cast<std::int32_t>(x * away / length));
@@ -168,17 +176,27 @@ private:
     }
 
     void scan(const BarLine& line, int level, int breadth) {
-        constexpr BarSight sights[] = {{4, BarEdgeRule::steepest},  {4, BarEdgeRule::halfway},
-                                       {4, BarEdgeRule::level},     {10, BarEdgeRule::level},
-                                       {10, BarEdgeRule::steepest}, {6, BarEdgeRule::halfway}};
-        constexpr int counts[] = {2, 3, 6};
+        constexpr BarSight sights[] = {{4, BarEdgeRule::steepest, 0},  {4, BarEdgeRule::halfway, 0},
+                                       {4, BarEdgeRule::level, 0},     {10, BarEdgeRule::level, 0},
+                                       {10, BarEdgeRule::steepest, 0}, {6, BarEdgeRule::halfway, 0},
+                                       {5, BarEdgeRule::halfway, 1},   {5, BarEdgeRule::level, 1},
+                                       {5, BarEdgeRule::halfway, 2},   {5, BarEdgeRule::level, 2}};
+        constexpr int counts[] = {2, 3, 10};
         if (line.samples < fewest_bar_edges) return;
-        const Span<std::int16_t> profile = profile_.first(line.samples);
-        sample_bar_line(src_, line, breadth, profile);
+        const Span<std::int16_t> plain = profile_.first(line.samples);
+        sample_bar_line(src_, line, breadth, plain);
+        Span<std::int16_t> profile = plain;
         int share = 0;
+        int sharpness = 0;
         int turns = 0;
         for (int i = 0; i < counts[level]; ++i) {
             const BarSight sight = sights[i];
+            if (sight.sharpness != sharpness) {
+                profile = sharp_profile_.first(line.samples);
+                sharpen_bar_profile(plain, sight.sharpness, profile);
+                share = 0;
+            }
+            sharpness = sight.sharpness;
             if (sight.share != share) turns = find_bar_turns(profile, sight.share, ranges_, turns_);
             share = sight.share;
             if (turns < fewest_bar_edges) continue;
@@ -231,6 +249,7 @@ private:
     ImageView<const Gray8> src_;
     const BarOptions& options_;
     Span<std::int16_t> profile_;
+    Span<std::int16_t> sharp_profile_;
     Span<std::int16_t> ranges_;
     Span<BarTurn> turns_;
     Span<std::int32_t> edges_[3];  ///< forward, backward, inverted

@@ -22,9 +22,9 @@ struct TwoWidths {
 /// Sorts `count` runs of which the given number is wide. The first begins at edge `first`, each next one
 /// `step` runs behind; every run between an odd edge and the next is a bar and is too wide by gain.
 ///
-/// Errors  false where the wide ones are not clearly wider: by a third at least
+/// Errors  false where the wide ones are not clearly wider: by `gap` sixteenths at least
 constexpr bool sort_widths(BarEdges edges, int first, int step, int count, int wide, std::int64_t gain,
-                           TwoWidths& sorted);
+                           int gap, TwoWidths& sorted);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -36,7 +36,7 @@ inline constexpr int most_two_width_runs = 9;
 }  // namespace detail
 
 constexpr bool sort_widths(BarEdges edges, int first, int step, int count, int wide, std::int64_t gain,
-                           TwoWidths& sorted) {
+                           int gap, TwoWidths& sorted) {
     FOVEA_ASSERT(count <= detail::most_two_width_runs && wide < count);
     std::int64_t widths[detail::most_two_width_runs] = {};
     for (int i = 0; i < count; ++i) {
@@ -65,11 +65,11 @@ constexpr bool sort_widths(BarEdges edges, int first, int step, int count, int w
             widest_narrow = maximum(widest_narrow, widths[i]);
         }
     }
-    if (wide > 0 && narrowest_wide * 3 < widest_narrow * 4) return false;
+    if (wide > 0 && narrowest_wide * 16 < widest_narrow * (16 + gap)) return false;
     const std::int64_t narrow_mean = sums[0] / (count - wide);
     const std::int64_t wide_mean = wide > 0 ? sums[1] / wide : 0;
     if (narrow_mean <= 0 || widest_narrow > 2 * narrow_mean) return false;
-    if (wide > 0 && (wide_mean * 5 < narrow_mean * 8 || wide_mean > narrow_mean * 5)) return false;
+    if (wide > 0 && (wide_mean * 2 < narrow_mean * 3 || wide_mean > narrow_mean * 5)) return false;
     std::int64_t off = 0;
     for (int i = 0; i < count; ++i) {
         const bool is_wide = (mask >> (count - 1 - i) & 1U) != 0;
