@@ -50,11 +50,13 @@ inline int find_bar_edges(BarProfile profile, Span<const BarTurn> turns, BarEdge
                           Span<std::int32_t> edges);
 
 /// The same line seen from its other end: edges of it in the other order, the first run a space again. Room for
-/// edges.size() + 2.
+/// edges.size() + 1.
 inline int reverse_bar_edges(BarEdges edges, Span<std::int32_t> reversed);
 
-/// The same line with bars taken as spaces. Room for edges.size() + 1.
-inline int invert_bar_edges(BarEdges edges, Span<std::int32_t> inverted);
+/// Makes of `count` edges the same line with bars taken as spaces, in place: room for one more.
+///
+/// Answer  how many there are then
+inline int invert_bar_edges(Span<std::int32_t> edges, int count);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -256,12 +258,11 @@ inline int reverse_bar_edges(BarEdges edges, Span<std::int32_t> reversed) {
     return found;
 }
 
-inline int invert_bar_edges(BarEdges edges, Span<std::int32_t> inverted) {
-    if (edges.empty()) return 0;
-    int found = 0;
-    inverted[found++] = edges[0];
-    for (const std::int32_t edge : edges) inverted[found++] = edge;
-    return found;
+inline int invert_bar_edges(Span<std::int32_t> edges, int count) {
+    if (count == 0) return 0;
+    // A space of no width comes before the first run.
+    for (int i = count; i > 0; --i) edges[i] = edges[i - 1];
+    return count + 1;
 }
 
 }  // namespace fovea

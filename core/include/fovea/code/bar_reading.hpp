@@ -51,6 +51,10 @@ struct BarRules {
     int interleaved_longest = 80;
 };
 
+/// False where the lengths of Interleaved 2 of 5 are odd, in the wrong order or out of their range.
+constexpr bool is_valid(const BarRules& rules);
+
+/// Bytes of the longest text that is read.
 inline constexpr int most_bar_text = 96;
 
 /// Where the brightness changes along a line, in 1/256 px from any origin, ascending. Run k lies between the
@@ -72,6 +76,13 @@ struct BarReading {
 };
 
 // ---- Implementation ---------------------------------------------------------------
+
+constexpr bool is_valid(const BarRules& rules) {
+    const int shortest = rules.interleaved_shortest;
+    const int longest = rules.interleaved_longest;
+    return shortest >= 2 && shortest % 2 == 0 && longest % 2 == 0 && longest >= shortest &&
+           longest <= most_bar_text;
+}
 
 namespace detail {
 

@@ -97,7 +97,9 @@ inline Status decode_codabar(BarEdges edges, int first, const BarRules& rules, B
     TwoWidths sorted;
     const int start = detail::read_codabar_character(edges, first, gain, sorted);
     if (start < 16) return Status::not_found;
-    const std::int64_t narrow = sorted.narrow;
+    std::int64_t narrow = sorted.narrow;
+    const std::int64_t first_narrow = narrow;
+    std::int64_t before = start_width;
 
     BarReading found;
     found.symbology = Symbology::codabar;
@@ -109,9 +111,11 @@ inline Status decode_codabar(BarEdges edges, int first, const BarRules& rules, B
         if (at + 8 >= edges.size()) return Status::not_found;
         const std::int64_t gap = std::int64_t{edges[at]} - edges[at - 1];
         const std::int64_t width = std::int64_t{edges[at + 7]} - edges[at];
-        if (gap > 4 * narrow || !detail::is_about(width, start_width, 128, 448)) return Status::not_found;
+        if (gap > 4 * narrow || !detail::is_about(width, before, 128, 512)) return Status::not_found;
         value = detail::read_codabar_character(edges, at, gain, sorted);
         if (value < 0 || !detail::is_about(sorted.narrow, narrow, 140, 440)) return Status::not_found;
+        before = width;
+        narrow = sorted.narrow;
         error += sorted.error;
         ++characters;
         if (value >= 16) break;
@@ -125,7 +129,7 @@ inline Status decode_codabar(BarEdges edges, int first, const BarRules& rules, B
     found.base = found.size;
     found.error = static_cast<int>(error / characters);
     found.quiet =
-        minimum(detail::quiet_share(left, narrow, 1, 10), detail::quiet_share(right, narrow, 1, 10));
+        minimum(detail::quiet_share(left, first_narrow, 1, 10), detail::quiet_share(right, narrow, 1, 10));
     if (found.quiet < 256 / 2) return Status::not_found;
     reading = found;
     return Status::ok;

@@ -51,12 +51,7 @@ inline constexpr int fewest_bar_edges = 4 + 10 + 3;
 
 inline Status decode_bars(BarEdges edges, int first, const BarRules& rules, BarReading& reading) {
     if (first < 0 || first > edges.size()) return Status::out_of_range;
-    const int shortest = rules.interleaved_shortest;
-    const int longest = rules.interleaved_longest;
-    if (shortest < 2 || shortest % 2 != 0 || longest % 2 != 0 || longest < shortest ||
-        longest > most_bar_text) {
-        return Status::bad_argument;
-    }
+    if (!is_valid(rules)) return Status::bad_argument;
     for (int at = first | 1; at + detail::fewest_bar_edges < edges.size(); at += 2) {
         if (detail::decode_bars_at(edges, at, rules, reading) == Status::ok) return Status::ok;
     }
