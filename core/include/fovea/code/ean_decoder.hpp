@@ -101,18 +101,26 @@ constexpr bool read_ean_digit(const EanSymbol& symbol, int at, std::int64_t seve
     return best <= ean_farthest && next - best >= ean_margin;
 }
 
-/// Reads count digits from edge `at` on. False if one of them is none, or if their widths jump.
+/// False if the widths of some digits in a row from edge `at` on jump, or are far from the mean.
+constexpr bool are_ean_digits_even(const EanSymbol& symbol, int at, int count) {
+    const std::int64_t mean = symbol.width * 7;  // times modules
+    std::int64_t before = symbol.between(at, at + 4);
+    for (int i = 0; i < count; ++i) {
+        const std::int64_t own = symbol.between(at + 4 * i, at + 4 * i + 4);
+        if (!is_about(own * symbol.modules, mean, 128, 512) || !is_about(before, own, 180, 364)) return false;
+        before = own;
+    }
+    return true;
+}
+
+/// Reads count digits from edge `at` on. False if one of them is none.
 constexpr bool read_ean_digits(EanSymbol& symbol, int at, int count, bool begins_with_bar,
                                std::uint8_t* values, unsigned& parity) {
     parity = 0;
-    const std::int64_t mean = symbol.width * 7;  // times modules
     for (int i = 0; i < count; ++i) {
         const std::int64_t own = symbol.between(at + 4 * i, at + 4 * i + 4);
-        // Within 1/2 and 2 of the mean.
-        if (!is_about(own * symbol.modules, mean, 128, 512)) return false;
         const std::int64_t before = i > 0 ? symbol.between(at + 4 * i - 4, at + 4 * i) : own;
         const std::int64_t behind = i + 1 < count ? symbol.between(at + 4 * i + 4, at + 4 * i + 8) : own;
-        if (!is_about(before, own, 180, 364)) return false;
         // The neighbours' share steadies the module; where the surface bends it is wrong, and the digit's own
         // width is right.
         const std::int64_t shared = (2 * own + before + behind) / 4;
@@ -199,6 +207,7 @@ inline bool decode_ean_13(EanSymbol symbol, const BarRules& rules, BarReading& r
     constexpr int runs = 59;
     constexpr EanGuard guards[] = {{0, 3, true}, {27, 5, false}, {56, 3, true}};
     if (!match_guards(symbol, runs, ean_13_modules, guards)) return false;
+    if (!are_ean_digits_even(symbol, 3, 6) || !are_ean_digits_even(symbol, 32, 6)) return false;
     std::uint8_t digits[13] = {};
     unsigned left = 0;
     unsigned right = 0;
@@ -223,6 +232,7 @@ inline bool decode_ean_8(EanSymbol symbol, BarReading& reading) {
     constexpr int runs = 43;
     constexpr EanGuard guards[] = {{0, 3, true}, {19, 5, false}, {40, 3, true}};
     if (!match_guards(symbol, runs, ean_8_modules, guards)) return false;
+    if (!are_ean_digits_even(symbol, 3, 4) || !are_ean_digits_even(symbol, 24, 4)) return false;
     std::uint8_t digits[8] = {};
     unsigned left = 0;
     unsigned right = 0;
@@ -241,6 +251,7 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     constexpr int runs = 33;
     constexpr EanGuard guards[] = {{0, 3, true}, {27, 6, false}};
     if (!match_guards(symbol, runs, upc_e_modules, guards)) return false;
+    if (!are_ean_digits_even(symbol, 3, 6)) return false;
     std::uint8_t digits[8] = {};
     unsigned parity = 0;
     if (!read_ean_digits(symbol, 3, 6, false, digits + 1, parity)) return false;
@@ -282,6 +293,7 @@ inline bool decode_add_on(EanSymbol code, int count, BarReading& reading) {
     for (int i = 0; i < count; ++i) {
         const int at = 3 + 6 * i;
         unsigned set_b = 0;
+        if (!are_ean_digits_even(symbol, at, 1)) return false;
         if (!read_ean_digits(symbol, at, 1, false, digits + i, set_b)) return false;
         parity = parity << 1 | set_b;
         if (i + 1 < count &&
@@ -307,6 +319,7 @@ inline Status decode_ean(BarEdges edges, int first, const BarRules& rules, BarRe
     const std::int64_t guard = symbol.between(0, 3);
     if (symbol.between(0, 1) * 8 > guard * 5 || symbol.between(1, 2) * 8 > guard * 5)
         return Status::not_found;
+    if (!detail::is_about(symbol.between(0, 1), symbol.between(2, 3), 64, 1024)) return Status::not_found;
     if (symbol.between(-1, 0) * 3 < guard * 2) return Status::not_found;
     bool found = (wanted.contains(Symbology::ean_13) || wanted.contains(Symbology::upc_a)) &&
                  detail::decode_ean_13(symbol, rules, reading);

@@ -91,7 +91,7 @@ inline Status decode_interleaved(BarEdges edges, int first, const BarRules& rule
         }
         if (at + 10 + 4 >= edges.size() || found.size + 2 > most_bar_text) return Status::not_found;
         const std::int64_t width = std::int64_t{edges[at + 10]} - edges[at];
-        if (before != 0 && !detail::is_about(width, before, 222, 295)) return Status::not_found;
+        if (before != 0 && !detail::is_about(width, before, 205, 320)) return Status::not_found;
         before = width;
         TwoWidths bars;
         TwoWidths spaces;
