@@ -30,8 +30,8 @@ struct BarTurn {
     std::int32_t level = 0;  ///< its brightness
 };
 
-/// Raises a profile over the mean of the samples `reach` to either side of it, which undoes some blur: twice the
-/// profile less that mean. The answer is in -4080..8160.
+/// Raises a profile over the mean of the samples `reach` to either side of it, which undoes some blur: twice
+/// the profile less that mean. The answer is in -4080..8160.
 inline void sharpen_bar_profile(BarProfile profile, int reach, Span<std::int16_t> sharp);
 
 /// Finds the bright and dark turning points in turn, as far as they stand out by 1/share of the contrast near
@@ -49,8 +49,8 @@ constexpr std::int64_t bar_ranges(std::int64_t samples) { return samples / 16 + 
 inline int find_bar_edges(BarProfile profile, Span<const BarTurn> turns, BarEdgeRule rule,
                           Span<std::int32_t> edges);
 
-/// The same line seen from its other end: edges of it in the other order, the first run a space again. Room for
-/// edges.size() + 1.
+/// The same line seen from its other end: edges of it in the other order, the first run a space again. Room
+/// for edges.size() + 1.
 inline int reverse_bar_edges(BarEdges edges, Span<std::int32_t> reversed);
 
 /// Makes of `count` edges the same line with bars taken as spaces, in place: room for one more.
@@ -66,8 +66,8 @@ inline constexpr int bar_block = 16;  ///< samples over which contrast is taken
 inline constexpr int bar_reach = 2;   ///< blocks to either side that share it
 inline constexpr std::int32_t least_bar_contrast = 4 << bar_profile_bits;
 
-/// The contrast about every block of samples: the range of the block and of its neighbours. Answers that of the
-/// whole line.
+/// The contrast about every block of samples: the range of the block and of its neighbours. Answers that of
+/// the whole line.
 inline std::int32_t find_bar_ranges(BarProfile profile, Span<std::int16_t> ranges) {
     const auto length = static_cast<int>(profile.size());
     const int blocks = (length + bar_block - 1) / bar_block;

@@ -34,8 +34,8 @@ constexpr std::int64_t bar_fields_scratch(Size size);
 
 /// Finds the fields of parallel edges, the weightiest first, as many as the list holds.
 ///
-/// The image is cut into blocks of 16x16 pixels. Where the structure tensor of a block has one clear direction
-/// it joins the neighbours of about that direction.
+/// The image is cut into blocks of 16x16 pixels. Where the structure tensor of a block has one clear
+/// direction it joins the neighbours of about that direction.
 ///
 /// Errors  empty_image, scratch_too_small; not_found
 /// Source  Bigun and Granlund, "Optimal orientation detection of linear symmetry", ICCV 1987

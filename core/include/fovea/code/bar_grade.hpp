@@ -20,8 +20,8 @@ namespace fovea {
 /// Units   from and to in samples, in any order
 /// Answer  not_graded in all parts where no turns lie between them
 /// Source  ISO/IEC 15416, 5.4 and table 3. Departures: grey levels of 255 stand for reflectance, the
-///         decodability is that of the mean edge instead of the worst one, and a quiet zone that is narrower than
-///         asked is graded by its width, where the standard gives 4 or 0
+///         decodability is that of the mean edge instead of the worst one, and a quiet zone that is narrower
+///         than asked is graded by its width, where the standard gives 4 or 0
 inline CodeGrade grade_bars(BarProfile profile, Span<const BarTurn> turns, std::int32_t from, std::int32_t to,
                             const BarReading& reading);
 

@@ -26,12 +26,12 @@ struct BarLine {
 /// The point at a place in 1/256 sample.
 constexpr SubPixelPoint point_of(const BarLine& line, std::int32_t place);
 
-/// The part of a line through two points that lies in the image and reaches beyond either end by `beyond` / 16
-/// of their distance. No samples if they are one.
+/// The part of a line through two points that lies in the image and reaches beyond either end by `beyond` /
+/// 16 of their distance. No samples if they are one.
 inline BarLine bar_line_through(Size size, SubPixelPoint from, SubPixelPoint to, int beyond);
 
-/// Samples a line inside the image, each the mean of `breadth` parallel lines a pixel apart, breadth odd. What
-/// lies outside the image is what its border shows.
+/// Samples a line inside the image, each the mean of `breadth` parallel lines a pixel apart, breadth odd.
+/// What lies outside the image is what its border shows.
 inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int breadth,
                             Span<std::int16_t> profile);
 

@@ -98,8 +98,8 @@ public:
     }
     int settled() const { return settled_; }
     Span<BarCandidate> candidates() const { return candidates_.first(candidate_count_); }
-    /// The candidate for which the last line voted and which is not settled, with where it saw it; -1 if there is
-    /// none.
+    /// The candidate for which the last line voted and which is not settled, with where it saw it; -1 if
+    /// there is none.
     int fresh() const { return fresh_; }
     const BarSpan& fresh_span() const { return fresh_span_; }
     void forget_fresh() { fresh_ = -1; }

@@ -34,12 +34,12 @@ constexpr std::int64_t bar_stream_scratch(int width) {
     return detail::BarLineReader::scratch_bytes(width, most_stream_codes);
 }
 
-/// Reads the codes whose bars the rows cross, upside down too, dark on light and light on dark. It takes rows in
-/// their order and tells the codes after the last one; agreement of rows is as in read_bars().
+/// Reads the codes whose bars the rows cross, upside down too, dark on light and light on dark. It takes rows
+/// in their order and tells the codes after the last one; agreement of rows is as in read_bars().
 class BarStream {
 public:
-    /// The scratch must outlive the stream. It is started with an error where it does not fit: every call answers
-    /// it then.
+    /// The scratch must outlive the stream. It is started with an error where it does not fit: every call
+    /// answers it then.
     ///
     /// Errors  empty_image, image_too_large above max_image_side, bad_argument, scratch_too_small
     BarStream(int width, const BarStreamOptions& options, Span<std::uint8_t> scratch)

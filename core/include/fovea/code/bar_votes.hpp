@@ -60,8 +60,8 @@ private:
     ListView<BarCandidate> candidates_;
 };
 
-/// Lines that must agree before a code is told. Few digits and no check character need more of them, and so do
-/// a poor fit and a narrow quiet zone.
+/// Lines that must agree before a code is told. Few digits and no check character need more of them, and so
+/// do a poor fit and a narrow quiet zone.
 constexpr int bar_lines_needed(const BarReading& reading);
 
 // ---- Implementation ---------------------------------------------------------------
@@ -184,8 +184,8 @@ inline bool BarVotes::is_certain(int which) const {
     }
     if (candidate.lines < bar_lines_needed(candidate.reading) + 3 * against) return false;
     if (candidate.reading.symbology != Symbology::interleaved_2_of_5) return true;
-    // A slanted line that enters through the side of a code reads the rest of it. Where lines an eighth of the
-    // length apart read the same, they came in by the front.
+    // A slanted line that enters through the side of a code reads the rest of it. Where lines an eighth of
+    // the length apart read the same, they came in by the front.
     const std::int64_t spread = std::int64_t{candidate.highest_offset} - candidate.lowest_offset;
     return spread * 8 >= detail::bar_offset(candidate.span, candidate.span).length;
 }

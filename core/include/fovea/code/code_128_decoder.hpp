@@ -95,6 +95,7 @@ constexpr bool read_code_128_character(BarEdges edges, int at, int from, int to,
 constexpr bool is_code_128_stop(BarEdges edges, int at) {
     if (at + 8 >= edges.size()) return false;
     const std::int64_t width = std::int64_t{edges[at + 7]} - edges[at];
+    if (width <= 0) return false;
     int distance = 0;
     for (int i = 0; i < 5; ++i) {
         const int ideal = static_cast<int>((code_128_stop_widths >> (24 - 4 * i) & 7U) +

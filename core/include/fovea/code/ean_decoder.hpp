@@ -22,7 +22,8 @@ namespace fovea {
 /// width of its bars, less the gain that the guards show. The module may change slowly along the line.
 ///
 /// Shapes    `first` odd. The quiet zones are what the runs beside the code show: at least a fifth of what
-///           the standard asks, a third of it for EAN-8 and half of it for UPC-E, where fewer digits speak for them
+///           the standard asks, a third of it for EAN-8 and half of it for UPC-E, where fewer digits speak
+///           for them
 /// Rounding  each digit is the nearest one, and must be nearer than the next by a clear margin
 /// Errors    out_of_range; not_found, with the reading untouched
 /// Source    ISO/IEC 15420, 4.2 to 4.5 and annex B, the reference decoding algorithm

@@ -18,13 +18,13 @@ namespace fovea {
 /// Bars and spaces in turn, the first is a bar: their widths in modules.
 using BarWidths = ListView<std::uint8_t>;
 
-/// The bars of a code, of its digits in ASCII. The check digit is added where it is left out, and verified where
-/// it is there; the 8 digits of a UPC-E begin with its number system, 0 or 1.
+/// The bars of a code, of its digits in ASCII. The check digit is added where it is left out, and verified
+/// where it is there; the 8 digits of a UPC-E begin with its number system, 0 or 1.
 ///
 /// Shapes  12 or 13 digits for EAN-13, 7 or 8 for EAN-8, 11 or 12 for UPC-A, 7 or 8 for UPC-E, 2 or 5 for
 ///         an add-on, which stands 7 to 12 modules behind its code
-/// Errors  bad_argument for other counts, what is no digit and a wrong check digit; buffer_too_small, with the
-///         list untouched. The list is appended to
+/// Errors  bad_argument for other counts, what is no digit and a wrong check digit; buffer_too_small, with
+///         the list untouched. The list is appended to
 /// Source  ISO/IEC 15420, 4.2
 constexpr Status encode_ean_13(Span<const std::uint8_t> text, BarWidths widths);
 constexpr Status encode_ean_8(Span<const std::uint8_t> text, BarWidths widths);

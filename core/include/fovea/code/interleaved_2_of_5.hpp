@@ -15,13 +15,13 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-/// Which of the five bars, or spaces, of a digit are wide, the first in the highest bit. ISO/IEC 16390, 4.3.1,
-/// table 1.
+/// Which of the five bars, or spaces, of a digit are wide, the first in the highest bit. ISO/IEC 16390,
+/// 4.3.1, table 1.
 inline constexpr std::uint8_t interleaved_wide[10] = {0b00110, 0b10001, 0b01001, 0b11000, 0b00101,
                                                       0b10100, 0b01100, 0b00011, 0b10010, 0b01010};
 
-/// Reads the Interleaved 2 of 5 that begins with the bar behind edge `first`: ]I0, ]I1 with a check digit that
-/// was verified, ]I3 with one that was verified and removed.
+/// Reads the Interleaved 2 of 5 that begins with the bar behind edge `first`: ]I0, ]I1 with a check digit
+/// that was verified, ]I3 with one that was verified and removed.
 ///
 /// Nothing but the quiet zones tells a short code from a part of a longer one: they must be there, and the
 /// lengths are limited by the rules.

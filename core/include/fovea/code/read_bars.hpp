@@ -35,9 +35,9 @@ constexpr std::int64_t read_bars_scratch(Size size);
 
 /// Reads bar codes in an image: any angle, dark on light and light on dark, from either side.
 ///
-/// Rows and columns come first, from the middle outwards, then lines across the fields of parallel edges, then
-/// all of it with other rules for what an edge is. Where a line reads a code its neighbours are asked. A code
-/// is told when enough lines agree on it; codes that contradict each other at one place are not told.
+/// Rows and columns come first, from the middle outwards, then lines across the fields of parallel edges,
+/// then all of it with other rules for what an edge is. Where a line reads a code its neighbours are asked. A
+/// code is told when enough lines agree on it; codes that contradict each other at one place are not told.
 ///
 /// Shapes  any; codes with modules of a pixel or more, and quiet zones
 /// Errors  empty_image; bad_argument; scratch_too_small; not_found; undecided where lines read something on

@@ -26,8 +26,8 @@ struct TwoWidthOptions {
 /// The bars of a code.
 ///
 /// Shapes  1..most_bar_text bytes, for Code 39 after pairs were made of what is not one of its characters;
-///         digits for Interleaved 2 of 5, which gets a leading 0 where their number is odd; for Codabar start and
-///         stop are A unless the text begins and ends with one of ABCD
+///         digits for Interleaved 2 of 5, which gets a leading 0 where their number is odd; for Codabar start
+///         and stop are A unless the text begins and ends with one of ABCD
 /// Errors  bad_argument for other bytes and for a wide other than 2 and 3; buffer_too_small, with the list
 ///         untouched. The list is appended to
 /// Source  ISO/IEC 16388, 4.3; ISO/IEC 16390, 4.3; EN 798
