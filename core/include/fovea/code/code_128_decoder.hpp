@@ -41,7 +41,8 @@ struct Code128Character {
 };
 
 constexpr int code_128_width(int value, int run) {
-    return static_cast<int>(code_128_widths[value] >> (20 - 4 * run) & 7U);
+    const std::uint32_t widths = value == code_128::stop ? code_128_stop_widths >> 4 : code_128_widths[value];
+    return static_cast<int>(widths >> (20 - 4 * run) & 7U);
 }
 
 /// Half the sum by which the bars of a character are too wide, in 1/64 module: three bars' gain.
@@ -55,9 +56,10 @@ constexpr int code_128_dark(int value) {
     return code_128_width(value, 0) + code_128_width(value, 2) + code_128_width(value, 4);
 }
 
-/// The character between edges `at` and at + 6, of the values from..to - 1; gain as code_128_bars() is above
-/// what it should be, or unknown.
-constexpr bool read_code_128_character(BarEdges edges, int at, int from, int to, bool gain_known, int gain,
+/// The character between edges `at` and at + 6: a start character, or any other one. gain is what
+/// code_128_bars() is above what it should be, which a start character tells first.
+enum class Code128Place : std::uint8_t { start, inside };
+constexpr bool read_code_128_character(BarEdges edges, int at, Code128Place place, int gain,
                                        Code128Character& character) {
     const std::int64_t width = std::int64_t{edges[at + 6]} - edges[at];
     if (width <= 0) return false;
@@ -69,13 +71,16 @@ constexpr bool read_code_128_character(BarEdges edges, int at, int from, int to,
     const int bars = code_128_bars(edges, at) - gain;
     int best = code_128_farthest * 4;
     int next = best;
-    for (int value = from; value < to; ++value) {
+    const bool starts = place == Code128Place::start;
+    const int last = starts ? code_128::start_c : code_128::stop;
+    for (int value = starts ? code_128::start_a : 0; value <= last; ++value) {
+        if (!starts && value == code_128::start_a) value = code_128::stop;
         int distance = 0;
         for (int i = 0; i < 4 && distance < next; ++i) {
             const int off = similar[i] - 64 * (code_128_width(value, i) + code_128_width(value, i + 1));
             distance += off * off;
         }
-        if (gain_known) {
+        if (!starts) {
             const int off = bars - 64 * code_128_dark(value);
             distance += off * off / 2;
         }
@@ -91,22 +96,11 @@ constexpr bool read_code_128_character(BarEdges edges, int at, int from, int to,
     return best <= code_128_farthest && next - best >= code_128_margin;
 }
 
-/// The stop character: only its seven runs end a code.
-constexpr bool is_code_128_stop(BarEdges edges, int at) {
-    if (at + 8 >= edges.size()) return false;
-    const std::int64_t width = std::int64_t{edges[at + 7]} - edges[at];
-    if (width <= 0) return false;
-    int distance = 0;
-    for (int i = 0; i < 5; ++i) {
-        const int ideal = static_cast<int>((code_128_stop_widths >> (24 - 4 * i) & 7U) +
-                                           (code_128_stop_widths >> (20 - 4 * i) & 7U));
-        const int off = static_cast<int>(round_divide(
-                            (std::int64_t{edges[at + i + 2]} - edges[at + i]) * (13 * 64), width)) -
-                        64 * ideal;
-        if (magnitude(off) > 64) return false;
-        distance += off * off;
-    }
-    return distance <= code_128_farthest * 5 / 4;
+/// True if the bar behind the first six runs of a stop character is of two modules.
+constexpr bool ends_code_128(BarEdges edges, int at) {
+    const std::int64_t width = std::int64_t{edges[at + 6]} - edges[at];
+    const std::int64_t bar = std::int64_t{edges[at + 7]} - edges[at + 6];
+    return is_about(bar * 11, width * 2, 128, 400);
 }
 
 /// What the characters between start and check say.
@@ -202,8 +196,7 @@ inline Status decode_code_128(BarEdges edges, int first, BarReading& reading) {
     const std::int64_t left = std::int64_t{edges[first]} - edges[first - 1];
     if (left * 11 < start_width * 5 || start_width < 11 * 128) return Status::not_found;
     detail::Code128Character character;
-    if (!detail::read_code_128_character(edges, first, code_128::start_a, code_128::start_c + 1, false, 0,
-                                         character)) {
+    if (!detail::read_code_128_character(edges, first, detail::Code128Place::start, 0, character)) {
         return Status::not_found;
     }
     BarReading found;
@@ -218,13 +211,16 @@ inline Status decode_code_128(BarEdges edges, int first, BarReading& reading) {
     int at = first + 6;
     for (int place = 1;; ++place, at += 6) {
         if (place > detail::most_code_128_characters || at + 8 >= edges.size()) return Status::not_found;
-        if (previous >= 0 && detail::is_code_128_stop(edges, at)) break;
         const std::int64_t width = std::int64_t{edges[at + 6]} - edges[at];
         if (!detail::is_about(width, before, 205, 320)) return Status::not_found;
         before = width;
-        if (!detail::read_code_128_character(edges, at, 0, code_128::start_a, true,
+        if (!detail::read_code_128_character(edges, at, detail::Code128Place::inside,
                                              static_cast<int>(round_shift(gain, 3)), character)) {
             return Status::not_found;
+        }
+        if (character.value == code_128::stop) {
+            if (previous < 0 || !detail::ends_code_128(edges, at)) return Status::not_found;
+            break;
         }
         gain += detail::code_128_bars(edges, at) - 64 * detail::code_128_dark(character.value) -
                 static_cast<int>(round_shift(gain, 3));

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t code_128_widths[106] = {
     0x114131, 0x311141, 0x411131, 0x211412, 0x211214, 0x211232,
 };
 
-/// The stop character has one bar more, and thirteen modules.
+/// The stop character has one bar more, and thirteen modules. Without that bar it is of eleven as the others.
 inline constexpr std::uint32_t code_128_stop_widths = 0x2331112;
 
 /// The values that are no data. ISO/IEC 15417, 4.3.3.
@@ -40,6 +40,7 @@ inline constexpr int fnc_1 = 102;
 inline constexpr int start_a = 103;
 inline constexpr int start_b = 104;
 inline constexpr int start_c = 105;
+inline constexpr int stop = 106;
 }  // namespace code_128
 
 }  // namespace fovea
