@@ -38,7 +38,8 @@ constexpr std::int64_t bar_fields_scratch(Size size);
 /// direction it joins the neighbours of about that direction.
 ///
 /// Errors  empty_image, scratch_too_small; not_found
-/// Source  Bigun and Granlund, "Optimal orientation detection of linear symmetry", ICCV 1987
+/// Source  Bigun and Granlund, "Optimal orientation detection of linear symmetry", ICCV 1987; the gradient of
+///         Jaehne, Scharr and Koerkel, "Principles of filter design", Handbook of Computer Vision, 1999
 inline Status find_bar_fields(ImageView<const Gray8> src, Span<std::uint8_t> scratch,
                               ListView<BarField> fields);
 
@@ -57,7 +58,7 @@ struct FieldBlock {
 };
 
 /// Squared gradients a pixel below which a block is empty: differences of five levels over two pixels.
-inline constexpr std::int32_t least_field_energy = 25;
+inline constexpr std::int32_t least_field_energy = 25 * 16;
 
 inline FieldBlock field_block_of(ImageView<const Gray8> src, int left, int top) {
     const int right = minimum(left + field_block, src.width() - 1);
@@ -66,14 +67,17 @@ inline FieldBlock field_block_of(ImageView<const Gray8> src, int left, int top) 
     std::int32_t yy = 0;
     std::int32_t xy = 0;
     std::int32_t count = 0;
-    // Every second row is enough. 8 * 16 squares of 255 are below 2^24.
+    // Every second row is enough. Scharr's weights tell the direction of narrow bars to a fraction of a degree,
+    // where plain differences err by three. 8 * 16 squares of 1020 are below 2^27.
     for (int y = maximum(top, 1); y < bottom; y += 2) {
         const Gray8* row = src.row(y);
         const Gray8* above = src.row(y - 1);
         const Gray8* below = src.row(y + 1);
         for (int x = maximum(left, 1); x < right; ++x) {
-            const std::int32_t gx = row[x + 1] - row[x - 1];
-            const std::int32_t gy = below[x] - above[x];
+            const std::int32_t falling = below[x + 1] - above[x - 1];
+            const std::int32_t rising = above[x + 1] - below[x - 1];
+            const std::int32_t gx = (3 * (falling + rising) + 10 * (row[x + 1] - row[x - 1])) >> 2;
+            const std::int32_t gy = (3 * (falling - rising) + 10 * (below[x] - above[x])) >> 2;
             xx += gx * gx;
             yy += gy * gy;
             xy += gx * gy;

@@ -90,13 +90,18 @@ constexpr BarOffset bar_offset(const BarSpan& from, const BarSpan& to) {
     return offset;
 }
 
-/// True if a span lies where a candidate's lines are.
-constexpr bool is_same_place(const BarCandidate& candidate, const BarSpan& span) {
+/// True if a span lies where a candidate's lines are, or beside them by 1/reach of its length at most.
+constexpr bool is_same_place(const BarCandidate& candidate, const BarSpan& span, int reach) {
     const BarOffset offset = bar_offset(candidate.span, span);
     const std::int64_t along = offset.along < 0 ? -offset.along : offset.along;
-    return along * 2 < offset.length && offset.across > candidate.lowest_offset - offset.length &&
-           offset.across < candidate.highest_offset + offset.length;
+    const std::int64_t beside = offset.length / reach;
+    return along * 2 < offset.length && offset.across > candidate.lowest_offset - beside &&
+           offset.across < candidate.highest_offset + beside;
 }
+/// Lines of the same text are of one code as far as its length apart; other texts may be those of another code
+/// above or below.
+inline constexpr int same_text_reach = 1;
+inline constexpr int other_text_reach = 4;
 
 constexpr bool same_text(const BarReading& a, const BarReading& b) {
     if (a.symbology != b.symbology || a.base != b.base) return false;
@@ -135,11 +140,13 @@ constexpr int bar_lines_needed(const BarReading& reading) {
 inline BarVote BarVotes::take(const BarReading& reading, const BarSpan& span, bool inverted, int& which) {
     for (int i = 0; i < candidates_.size(); ++i) {
         BarCandidate& known = candidates_[i];
-        if (!detail::is_same_place(known, span)) continue;
         if (!detail::same_text(known.reading, reading)) {
-            if (known.settled) return BarVote::ignored;
+            if (known.settled && detail::is_same_place(known, span, detail::other_text_reach)) {
+                return BarVote::ignored;
+            }
             continue;
         }
+        if (!detail::is_same_place(known, span, detail::same_text_reach)) continue;
         which = i;
         const auto offset = static_cast<std::int32_t>(detail::bar_offset(known.span, span).across);
         for (int k = 0; k < minimum(known.lines, BarCandidate::most_offsets); ++k) {
@@ -179,7 +186,7 @@ inline bool BarVotes::is_certain(int which) const {
     const BarCandidate& candidate = candidates_[which];
     int against = 0;
     for (int i = 0; i < candidates_.size(); ++i) {
-        if (i != which && detail::is_same_place(candidates_[i], candidate.span))
+        if (i != which && detail::is_same_place(candidates_[i], candidate.span, detail::other_text_reach))
             against += candidates_[i].lines;
     }
     if (candidate.lines < bar_lines_needed(candidate.reading) + 3 * against) return false;

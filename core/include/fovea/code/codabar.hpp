@@ -92,7 +92,7 @@ inline Status decode_codabar(BarEdges edges, int first, const BarRules& rules, B
     if (first + 8 * 5 >= edges.size()) return Status::not_found;
     const std::int64_t left = std::int64_t{edges[first]} - edges[first - 1];
     const std::int64_t start_width = std::int64_t{edges[first + 7]} - edges[first];
-    if (left * 2 < start_width || start_width < 10 * 128) return Status::not_found;
+    if (left * 3 < start_width || start_width < 10 * 128) return Status::not_found;
     const std::int64_t gain = detail::codabar_gain(edges, first);
     TwoWidths sorted;
     const int start = detail::read_codabar_character(edges, first, gain, sorted);

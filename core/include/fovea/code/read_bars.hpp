@@ -172,6 +172,8 @@ private:
         const std::int64_t y = std::int64_t{span.to.y.raw()} - span.from.y.raw();
         const std::int64_t length = maximum<std::int64_t>(hypotenuse(x, y), 256);
         const std::int64_t pace = maximum<std::int64_t>(512, length / 64);
+        // Quiet zones of a quarter; an add-on is more than half as long as its code.
+        const int beyond = options_.rules.add_on == AddOn::appended ? 12 : 4;
         for (int i = 0; i < 16 && !is_settled(which); ++i) {
             const std::int64_t away = pace * (i / 2 + 1) * (i % 2 == 0 ? 1 : -1) + pace * shift / 8;
             const auto moved = [&](SubPixelPoint p) {
@@ -179,7 +181,7 @@ private:
                 p.y += SubPixel::from_raw(static_cast<std::int32_t>(x * away / length));
                 return p;
             };
-            scan(bar_line_through(src_.size(), moved(span.from), moved(span.to), 4), level, breadth);
+            scan(bar_line_through(src_.size(), moved(span.from), moved(span.to), beyond), level, breadth);
         }
     }
 
