@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/code_bar_vectors.hpp>
 #include <golden/codec_vectors.hpp>
 #include <golden/colour_vectors.hpp>
 #include <golden/decision_vectors.hpp>
@@ -114,6 +115,12 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"code/bar_decoders", code_bar_decoders},
+    {"code/bar_encoders", code_bar_encoders},
+    {"code/bar_lines", code_bar_lines},
+    {"code/bar_tables", code_bar_tables},
+    {"code/bar_votes", code_bar_votes},
+    {"code/read_bars", code_read_bars},
     {"codec/any_picture", codec_any_picture},
     {"codec/bmp", codec_bmp},
     {"codec/encode_bmp", codec_encode_bmp},
