@@ -67,7 +67,8 @@ inline std::string hexadecimal(const std::string& bytes) {
 
 }  // namespace detail
 
-/// One JSON object on a line, its keys always in this order. verdict is "" where nothing is asked of the text.
+/// One JSON object on a line, its keys always in this order. verdict is "" where nothing is asked of the
+/// text.
 inline std::string json_code(const std::string& image, int index, const ReadCode& read,
                              const std::string& verdict) {
     const Code& code = read.code;

@@ -155,7 +155,8 @@ inline Status read_picture(const Picture<Gray8>& image, const ReadCodesOptions& 
     return status;
 }
 
-/// A picture with a frame around each code and a cross where reading begins. What of them lies outside is not drawn.
+/// A picture with a frame around each code and a cross where reading begins. What of them lies outside is not
+/// drawn.
 inline Picture<Rgb888> explain_codes(const Picture<Gray8>& image, const std::vector<ReadCode>& read) {
     Picture<Rgb888> picture(image.size);
     for (int y = 0; y < image.size.height; ++y)

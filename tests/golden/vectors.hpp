@@ -12,6 +12,8 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/code_bar_vectors.hpp>
+#include <golden/code_blur_vectors.hpp>
 #include <golden/code_qr_vectors.hpp>
 #include <golden/codec_vectors.hpp>
 #include <golden/colour_vectors.hpp>
@@ -115,12 +117,19 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"code/blurred_ean", code_blurred_ean},
     {"code/local_threshold", code_local_threshold},
     {"code/names", code_names},
     {"code/qr_symbols", code_qr_symbols},
     {"code/read_qr", code_read_qr},
     {"code/reed_solomon", code_reed_solomon},
     {"code/text_utf8", code_text_utf8},
+    {"code/bar_decoders", code_bar_decoders},
+    {"code/bar_encoders", code_bar_encoders},
+    {"code/bar_lines", code_bar_lines},
+    {"code/bar_tables", code_bar_tables},
+    {"code/bar_votes", code_bar_votes},
+    {"code/read_bars", code_read_bars},
     {"codec/any_picture", codec_any_picture},
     {"codec/bmp", codec_bmp},
     {"codec/encode_bmp", codec_encode_bmp},

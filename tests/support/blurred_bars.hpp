@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// EAN symbols as a camera out of focus shows them: digits to a profile, by the integral of a disc over each module.
+// EAN symbols as a camera out of focus shows them: digits to a profile, by the integral of a disc over each
+// module.
 #pragma once
 
 #include <cmath>

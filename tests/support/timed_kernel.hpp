@@ -30,8 +30,8 @@ struct TestTime {
     }
 };
 
-/// Files are those of the machine; waiting for them takes no time but that of the test. Who waits for none may wait for
-/// another thread, which is not of the test's time: up to a millisecond passes for it too.
+/// Files are those of the machine; waiting for them takes no time but that of the test. Who waits for none
+/// may wait for another thread, which is not of the test's time: up to a millisecond passes for it too.
 class TimedKernel : public linux_port::Kernel {
 public:
     explicit TimedKernel(TestTime& time) : time_(&time) {}

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Reads the photo sets of codes with fovea and with the readers that are installed, picture by picture in turn, and prints
-// how many each reads at every quarter turn, how often it says something else, and the median of its times.
+// Reads the photo sets of codes with fovea and with the readers that are installed, picture by picture in
+// turn, and prints how many each reads at every quarter turn, how often it says something else, and the
+// median of its times.
 //
 // usage: code_readers [SET...]
 #include <algorithm>
@@ -101,7 +102,8 @@ std::vector<Reader> readers() {
     return result;
 }
 
-/// Readers differ in whether a UPC-A has the leading zero of its EAN-13, and whether a UPC-E is told as UPC-A.
+/// Readers differ in whether a UPC-A has the leading zero of its EAN-13, and whether a UPC-E is told as
+/// UPC-A.
 bool same(const std::string& text, const std::string& truth) {
     const std::string read = test::plain(text);
     return read == truth || (truth.size() == 12 && read == "0" + truth);

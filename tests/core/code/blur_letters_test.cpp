@@ -14,7 +14,8 @@ TEST(DiscShare, IsTheAreaOfADiscLeftOfALine) {
     for (int raw = -70000; raw <= 70000; raw += 7) {
         const double u = std::fmin(1, std::fmax(-1, raw / 65536.0));
         const double share = 0.5 + (u * std::sqrt(1 - u * u) + std::asin(u)) / std::acos(-1.0);
-        // The chords of the table lie up to (1/64)^2 / 8 times the curvature off, which is large at the rim: 10 of 32768.
+        // The chords of the table lie up to (1/64)^2 / 8 times the curvature off, which is large at the rim:
+        // 10 of 32768.
         ASSERT_NEAR(disc_share(Ratio::from_raw(raw)), share * 32768, 10) << raw;
     }
     EXPECT_EQ(disc_share(Ratio::from_raw(0)), 16384);
@@ -62,7 +63,8 @@ TEST(ModuleResponse, IsAModuleOfDarknessHoweverItIsSpread) {
             EXPECT_LE(at, full_darkness);
             sum += at;
         }
-        // Two samples a module; what lies between them is told to a hundredth where blur is wider than their distance.
+        // Two samples a module; what lies between them is told to a hundredth where blur is wider than their
+        // distance.
         EXPECT_NEAR(sum, blur_samples * full_darkness, tenths < 6 ? 40 : 25) << tenths;
         for (int i = 0; i < module_response_size; ++i) {
             EXPECT_EQ(response.at[i], response.at[module_response_size - 1 - i]) << tenths << ' ' << i;

@@ -70,7 +70,8 @@ TEST(CheapestDigits, AreThoseThatAreSeenAndCostNothing) {
 TEST(CheapestDigits, AreTheCheapestOfAllTenMillion) {
     look(ean_8_plan, "96385074", Ratio::from_ratio(31, 10), 700, 3);
     const CheapestDigits found = cheapest_digits(ean_8_plan, seen().letters, seen().costs, seen().paths);
-    // Every row of seven digits with its check digit, the first two on the outside so that their sum is made once.
+    // Every row of seven digits with its check digit, the first two on the outside so that their sum is made
+    // once.
     std::int32_t best = no_path;
     std::int32_t second = no_path;
     const auto own = [&](int place, int digit) { return seen().costs.of[place][digit]; };

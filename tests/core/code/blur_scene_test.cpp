@@ -52,7 +52,8 @@ TEST(FitLight, FindsTheLightThatLevelsWereMadeIn) {
     BlurLight found{};
     ASSERT_TRUE(fit_light(ean_13_plan, levels, darkness, found));
     for (int side = 0; side < 2; ++side) {
-        // The light of a half is not even: it is met at its middle, and what it changes by to both sides is not explained.
+        // The light of a half is not even: it is met at its middle, and what it changes by to both sides is
+        // not explained.
         EXPECT_NEAR(found.white[side], made.white[side], made.white[side] / 200);
         EXPECT_NEAR(found.dark[side], made.dark[side], made.dark[side] / 100);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Photos of codes with their texts: how many are read at every quarter turn, that none is misread, and that nothing is read
-// where there is no code.
+// Photos of codes with their texts: how many are read at every quarter turn, that none is misread, and that
+// nothing is read where there is no code.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// What libpng reads and writes, to compare with. What is transparent is put on white, 16 bits are rounded to 8, gamma stays.
+// What libpng reads and writes, to compare with. What is transparent is put on white, 16 bits are rounded to
+// 8, gamma stays.
 #pragma once
 
 #include <png.h>
 
+#include <cmath>
 #include <csetjmp>
 #include <cstdint>
-#include <cmath>
 #include <cstring>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any profile, and any stretch of it: what is read has digits, a right check digit and a place in the profile.
+// Any profile, and any stretch of it: what is read has digits, a right check digit and a place in the
+// profile.
 #include <cstddef>
 #include <cstdint>
 #include <vector>

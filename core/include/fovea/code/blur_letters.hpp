@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The letters of EAN and UPC as a blurred picture shows them: what one sees of a letter, and of one beside another, where
-// the light of every module reaches over its neighbours. Book ch. 5; ISO/IEC 15420, 4.2.
+// The letters of EAN and UPC as a blurred picture shows them: what one sees of a letter, and of one beside
+// another, where the light of every module reaches over its neighbours. Book ch. 5; ISO/IEC 15420, 4.2.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace fovea::detail {
 
 /// A module is seen in two samples, at a quarter and three quarters of it.
 inline constexpr int blur_samples = 2;
-/// Samples that light reaches beyond its module: blur is at most 3.5 modules to each side, so that a letter of seven meets
-/// none but its neighbours.
+/// Samples that light reaches beyond its module: blur is at most 3.5 modules to each side, so that a letter
+/// of seven meets none but its neighbours.
 inline constexpr int blur_reach = 7;
 inline constexpr int module_response_size = blur_samples + 2 * blur_reach;
 inline constexpr int letter_response_size = 7 * blur_samples + 2 * blur_reach;
 /// Darkness 1, a bar without end.
 inline constexpr std::int32_t full_darkness = 1024;
 
-/// The share of a lens's disc that lies left of a place, 0 at -1 and 32768 at 1: 1/2 + (u sqrt(1 - u^2) + asin u) / pi, at
-/// the 64ths from 0 to 1. It is how an edge looks that is out of focus.
+/// The share of a lens's disc that lies left of a place, 0 at -1 and 32768 at 1: 1/2 + (u sqrt(1 - u^2) +
+/// asin u) / pi, at the 64ths from 0 to 1. It is how an edge looks that is out of focus.
 inline constexpr std::uint16_t disc_shares[65] = {
     16384, 16710, 17036, 17361, 17687, 18012, 18337, 18661, 18985, 19308, 19630, 19952, 20272,
     20592, 20911, 21228, 21544, 21859, 22173, 22485, 22795, 23104, 23411, 23716, 24019, 24320,
@@ -47,7 +47,8 @@ constexpr std::int32_t disc_share(Ratio place) {
 inline constexpr int letter_count = 30;
 inline constexpr int first_c = 20;
 
-/// Dark modules of a letter, its first module in bit 6. B is C from behind, C is A with its colours exchanged.
+/// Dark modules of a letter, its first module in bit 6. B is C from behind, C is A with its colours
+/// exchanged.
 constexpr unsigned letter_modules(int letter) {
     FOVEA_ASSERT(letter >= 0 && letter < letter_count);
     constexpr std::uint8_t set_a[10] = {0x0D, 0x19, 0x13, 0x3D, 0x23, 0x31, 0x2F, 0x3B, 0x37, 0x0B};
@@ -111,8 +112,9 @@ inline ModuleResponse module_response(Ratio blur) {
 
 /// What is seen of each letter, and what two letters that meet have in common.
 ///
-/// Darkness is a sum, so the squares between what is seen and what a row of letters would show come apart into a part for
-/// each letter and one for each pair of neighbours: |z - sum T|^2 = |z|^2 + sum (|T|^2 - 2 zT) + sum 2 T T'.
+/// Darkness is a sum, so the squares between what is seen and what a row of letters would show come apart
+/// into a part for each letter and one for each pair of neighbours: |z - sum T|^2 = |z|^2 + sum (|T|^2 - 2
+/// zT) + sum 2 T T'.
 struct BlurLetters {
     ModuleResponse module;
     std::int32_t response[letter_count][letter_response_size];  ///< at most full_darkness

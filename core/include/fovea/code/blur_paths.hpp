@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which letters a blurred EAN or UPC shows: the row of letters whose picture comes closest to what is seen, of all that
-// there are, by dynamic programming over neighbours. Book ch. 5; ISO/IEC 15420, 4.2 and annex A.
+// Which letters a blurred EAN or UPC shows: the row of letters whose picture comes closest to what is seen,
+// of all that there are, by dynamic programming over neighbours. Book ch. 5; ISO/IEC 15420, 4.2 and annex A.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,9 @@ struct LetterCosts {
 
 /// Costs of the letters for the darkness seen, without that of the guards, within +-2 full_darkness.
 ///
-/// Bounds  a letter has at most 5 dark modules, whose response is full_darkness in sum a sample: |2 zT| <= 2 * 2048 * 10240
-///         < 2^26, |T|^2 and 2 TT' < 2^25; |z|^2 < 204 * 2^22; so 12 letters with all of theirs stay below 2^31
+/// Bounds  a letter has at most 5 dark modules, whose response is full_darkness in sum a sample: |2 zT| <= 2
+///         * 2048 * 10240 < 2^26, |T|^2 and 2 TT' < 2^25; |z|^2 < 204 * 2^22; so 12 letters with all of
+///         theirs stay below 2^31
 inline void cost_letters(const BlurPlan& plan, const BlurLetters& letters, const std::int32_t* darkness,
                          LetterCosts& costs) {
     costs.nothing = 0;
@@ -38,7 +39,8 @@ inline void cost_letters(const BlurPlan& plan, const BlurLetters& letters, const
     }
 }
 
-/// What two letters cost more together, one at place and one behind it; both as indices into the alphabets there.
+/// What two letters cost more together, one at place and one behind it; both as indices into the alphabets
+/// there.
 constexpr std::int32_t pair_cost(const BlurPlan& plan, const BlurLetters& letters, int place, int left,
                                  int right) {
     if (place + 1 == plan.left) return letters.across[left][right];
@@ -51,8 +53,8 @@ struct LetterPaths {
     std::int32_t to[most_blur_letters][first_c];
 };
 
-/// The cost of the cheapest row of letters, whatever parity and check digit say: what a place in the image, a size and a
-/// blur are compared by. Never above the cost of the cheapest digits.
+/// The cost of the cheapest row of letters, whatever parity and check digit say: what a place in the image, a
+/// size and a blur are compared by. Never above the cost of the cheapest digits.
 inline std::int32_t cheapest_letters(const BlurPlan& plan, const BlurLetters& letters,
                                      const LetterCosts& costs, LetterPaths& paths) {
     for (int i = 0; i < plan.alphabet_size(0); ++i) paths.to[0][i] = costs.of[0][i];
@@ -92,7 +94,8 @@ inline void trace_letters(const BlurPlan& plan, const BlurLetters& letters, cons
     }
 }
 
-/// Which of the six left letters are of set B, the first in bit 5, for each first digit. ISO/IEC 15420, table 2.
+/// Which of the six left letters are of set B, the first in bit 5, for each first digit. ISO/IEC 15420, table
+/// 2.
 inline constexpr std::uint8_t set_b_places[10] = {0x00, 0x0B, 0x0D, 0x0E, 0x13, 0x19, 0x1C, 0x15, 0x16, 0x1A};
 
 /// The digits that come closest, and how much closer they are than any others whose check digit is right.
@@ -102,7 +105,8 @@ struct CheapestDigits {
     std::uint8_t digits[1 + most_blur_letters] = {};  ///< with the first of EAN-13 in front, else 0
 };
 
-/// Memory of cheapest_digits(): what it costs to come to a digit with a sum of all before, and to end from there.
+/// Memory of cheapest_digits(): what it costs to come to a digit with a sum of all before, and to end from
+/// there.
 struct DigitPaths {
     std::int32_t to[most_blur_letters][10][10];
     std::int32_t from[most_blur_letters][10][10];

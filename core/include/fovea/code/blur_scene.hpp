@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How a profile across bars came about: where the bars lie in it, how they are blurred, and in which light. Book ch. 5.
+// How a profile across bars came about: where the bars lie in it, how they are blurred, and in which light.
+// Book ch. 5.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@
 
 namespace fovea::detail {
 
-/// White and the step from it to black, at a quarter and at three quarters of the bars; between and beyond, on the line
-/// through both. 1/256 gray level.
+/// White and the step from it to black, at a quarter and at three quarters of the bars; between and beyond,
+/// on the line through both. 1/256 gray level.
 struct BlurLight {
     std::int32_t white[2];
     std::int32_t dark[2];
@@ -119,7 +120,8 @@ constexpr int letter_of(const BlurPlan& plan, const std::uint8_t* digits, int pl
     return of_b ? 10 + digit : digit;
 }
 
-/// The light in which levels come closest to a darkness, by least squares in each half; false where levels rise with it.
+/// The light in which levels come closest to a darkness, by least squares in each half; false where levels
+/// rise with it.
 inline bool fit_light(const BlurPlan& plan, const std::int32_t* levels, const std::int32_t* darkness,
                       BlurLight& light) {
     BlurLight fitted{};
@@ -147,8 +149,8 @@ inline bool fit_light(const BlurPlan& plan, const std::int32_t* levels, const st
     return true;
 }
 
-/// Darkness at the outer edge of a symbol: of the bar, space and bar of its guard, of the space that follows, and of the
-/// unknown behind it, which is dark by half.
+/// Darkness at the outer edge of a symbol: of the bar, space and bar of its guard, of the space that follows,
+/// and of the unknown behind it, which is dark by half.
 inline std::int32_t guard_edge(const ModuleResponse& module) {
     const auto at_edge = [&](int k) {
         // The edge of module 0 lies between two samples of each module's response.
@@ -158,7 +160,8 @@ inline std::int32_t guard_edge(const ModuleResponse& module) {
     return at_edge(0) + at_edge(2) + at_edge(4) / 2;
 }
 
-/// Where a profile falls below a level first, from a place in steps of 1 or -1, for at most 64 of them; negative: nowhere.
+/// Where a profile falls below a level first, from a place in steps of 1 or -1, for at most 64 of them;
+/// negative: nowhere.
 inline std::int32_t falls_to(Span<const std::uint16_t> profile, int from, int step, std::int32_t level) {
     for (int x = from, steps = 0; steps < 64; x += step, ++steps) {
         if (x < 0 || x >= profile.size() || x + step < 0 || x + step >= profile.size()) return -1;
@@ -171,7 +174,8 @@ inline std::int32_t falls_to(Span<const std::uint16_t> profile, int from, int st
     return -1;
 }
 
-/// Fits place, perspective, blur and light of a scene to letters that are known, one after the other in ever smaller steps.
+/// Fits place, perspective, blur and light of a scene to letters that are known, one after the other in ever
+/// smaller steps.
 class SceneFit {
 public:
     SceneFit(const BlurPlan& plan, Span<const std::uint16_t> profile, const std::uint8_t* row,

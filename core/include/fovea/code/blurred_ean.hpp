@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// EAN and UPC out of focus: read by what a blurred row of letters would look like, where no edge of a bar is left to see.
-// Book ch. 5; ISO/IEC 15420.
+// EAN and UPC out of focus: read by what a blurred row of letters would look like, where no edge of a bar is
+// left to see. Book ch. 5; ISO/IEC 15420.
 #pragma once
 
 #include <cstdint>
@@ -53,17 +53,20 @@ struct BlurredEan {
 
 /// The digits whose blurred picture comes closest to a profile across bars.
 ///
-/// A model is fitted, not edges: letters of seven modules, spread by the disc of a lens out of focus, under light that changes
-/// evenly along the bars. Place, size, perspective and blur are found by descent, the digits by dynamic programming over all
-/// there are whose parity and check digit are right. A reading is as good as its margin: what is no EAN gives margins
-/// below 1.15, for of all numbers some always come close; see BlurredVotes for what may be believed.
+/// A model is fitted, not edges: letters of seven modules, spread by the disc of a lens out of focus, under
+/// light that changes evenly along the bars. Place, size, perspective and blur are found by descent, the
+/// digits by dynamic programming over all there are whose parity and check digit are right. A reading is as
+/// good as its margin: what is no EAN gives margins below 1.15, for of all numbers some always come close;
+/// see BlurredVotes for what may be believed.
 ///
-/// Shapes    profile of 64 to max_image_side places, 1 px apart; span inside it, with at least two places of margin
+/// Shapes    profile of 64 to max_image_side places, 1 px apart; span inside it, with at least two places of
+///           margin
 /// Units     levels in 1/256 gray level, light margins; places in px
 /// Rounding  of fixed point, the same everywhere: darkness 1/1024, places 1/65536 px
 /// Scratch   one BlurredEanScratch, undefined afterwards
-/// Errors    empty_image; bad_argument for a profile or span outside its bounds or another symbology than EAN-13 and EAN-8;
-///           not_found where bars are below 1 px or above 12 px a module, have no contrast, or are no EAN at first sight
+/// Errors    empty_image; bad_argument for a profile or span outside its bounds or another symbology than
+///           EAN-13 and EAN-8; not_found where bars are below 1 px or above 12 px a module, have no contrast,
+///           or are no EAN at first sight
 /// Source    book ch. 5; ISO/IEC 15420, 4.2, 4.3, annex A
 inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, ProfileSpan span,
                                            Symbology symbology, BlurredEanScratch& scratch);
@@ -81,8 +84,8 @@ struct BlurTrial {
 
 /// What a cost is of the most that samples could have: the mean square of darkness.
 constexpr std::int32_t mean_square(const BlurPlan& plan, std::int32_t cost) { return cost / plan.samples(); }
-/// At first sight a row of letters must explain all but 13 % of the contrast, after descent all but 7 %; true ones were
-/// seen with 3 to 7 and with 2.5 to 5.
+/// At first sight a row of letters must explain all but 13 % of the contrast, after descent all but 7 %; true
+/// ones were seen with 3 to 7 and with 2.5 to 5.
 inline constexpr std::int32_t worth_a_descent = full_darkness * 13 / 100 * (full_darkness * 13 / 100);
 inline constexpr std::int32_t worth_reading = full_darkness * 7 / 100 * (full_darkness * 7 / 100);
 
@@ -121,7 +124,8 @@ private:
                                                     Ratio::one * 15 / 10, Ratio::one * 2,
                                                     Ratio::one * 26 / 10, Ratio::one * 32 / 10};
 
-    /// Perspective that moves the middle of the bars by half a module of EAN-13, which little blur does not forgive.
+    /// Perspective that moves the middle of the bars by half a module of EAN-13, which little blur does not
+    /// forgive.
     static constexpr std::int32_t first_bend = Ratio::one / 50;
 
     /// White at both ends; contrast from the mean, for half of all modules are dark, more or less.
@@ -136,8 +140,8 @@ private:
         light.white[1] = right + (left - right) / 4;
         return light.dark[0] >= least_blur_contrast;
     }
-    /// The first guesses at a blur: the ends where the outermost bar has the darkness that it would have there, in straight
-    /// view and from both sides.
+    /// The first guesses at a blur: the ends where the outermost bar has the darkness that it would have
+    /// there, in straight view and from both sides.
     void look(ProfileSpan span, bool reversed, const BlurLight& light, Ratio blur,
               BlurTrial (&trials)[kept_trials], int& count) {
         const std::int32_t edge = guard_edge(scratch_.letters.module);
@@ -173,7 +177,8 @@ private:
         cost_letters(plan_, scratch_.letters, scratch_.darkness, scratch_.costs);
         trial.cost = cheapest_letters(plan_, scratch_.letters, scratch_.costs, scratch_.letter_paths);
     }
-    /// Both ends are moved by half a module, a quarter and an eighth, whatever makes letters fit; then the light to these.
+    /// Both ends are moved by half a module, a quarter and an eighth, whatever makes letters fit; then the
+    /// light to these.
     void descend(BlurTrial& trial) {
         std::int32_t step = module_of(plan_, trial.scene) / 2;
         for (int size = 0; size < 3; ++size, step /= 2) {

@@ -17,9 +17,9 @@ namespace fovea {
 
 /// Stretches that may hold all bars of a code, around the middle of a profile.
 ///
-/// A quiet zone is lighter than any space between blurred bars. From the middle outwards every top of the profile that is
-/// within an eighth of the lightest so far may be one; all pairs of the outermost four to both sides are told, the widest
-/// first.
+/// A quiet zone is lighter than any space between blurred bars. From the middle outwards every top of the
+/// profile that is within an eighth of the lightest so far may be one; all pairs of the outermost four to
+/// both sides are told, the widest first.
 ///
 /// Shapes  profile of 64 places or more; middle in it
 /// Errors  empty_image; out_of_range for the middle; not_found; capacity_exceeded with the widest in the list

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// EAN and UPC codes of an image out of focus: profiles across fields of parallel edges, each fitted by the picture of blurred
-// letters, and believed when they agree. Book ch. 5.
+// EAN and UPC codes of an image out of focus: profiles across fields of parallel edges, each fitted by the
+// picture of blurred letters, and believed when they agree. Book ch. 5.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +29,12 @@ constexpr std::int64_t read_blurred_bars_scratch(Size size);
 
 /// Reads EAN-13, UPC-A and EAN-8 codes that are too blurred for read_bars().
 ///
-/// Shapes   any; modules of 1 to 12 px, blur of at most 3.5 modules to each side, dark bars between quiet zones
+/// Shapes   any; modules of 1 to 12 px, blur of at most 3.5 modules to each side, dark bars between quiet
+///          zones
 /// Time     bounded: at most 4 fields of 9 profiles, 6 stretches of each
 /// Scratch  read_blurred_bars_scratch(src.size()) bytes, undefined afterwards
-/// Errors   empty_image; bad_argument for most_codes below 1; scratch_too_small; not_found; buffer_too_small and
-///          capacity_exceeded with the codes that had room. Text and codes are appended to
+/// Errors   empty_image; bad_argument for most_codes below 1; scratch_too_small; not_found; buffer_too_small
+///          and capacity_exceeded with the codes that had room. Text and codes are appended to
 /// Source   see read_blurred_ean()
 inline Status read_blurred_bars(ImageView<const Gray8> src, SymbologySet symbologies, int most_codes,
                                 Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes);
@@ -126,7 +127,8 @@ private:
         const std::int64_t half = std::int64_t{field.length} * 128;
         const std::int64_t away = std::int64_t{field.height} * 256 * offset / (blurred_lines + 1);
         const SubPixelPoint from = at(-half, away);
-        // Six sixteenths beyond both ends: a field of blocks ends where edges end, the quiet zones lie outside.
+        // Six sixteenths beyond both ends: a field of blocks ends where edges end, the quiet zones lie
+        // outside.
         line = bar_line_through(src_.size(), from, at(half, away), 6);
         if (line.samples < 64) return false;
         sample_bar_line(src_, line, blurred_breadth, samples_.first(line.samples));

@@ -25,7 +25,8 @@ struct ReadCodesOptions {
     SymbologySet symbologies = SymbologySet::all();
     /// Ends the search, 1 or more.
     int most_codes = 32;
-    /// True: what is harder to see is looked for where nothing was read at first sight, which takes several times as long.
+    /// True: what is harder to see is looked for where nothing was read at first sight, which takes several
+    /// times as long.
     bool thorough = true;
     /// How bar codes are understood.
     BarRules rules;
@@ -37,15 +38,15 @@ constexpr std::int64_t read_codes_scratch(Size size) {
                    maximum(read_qr_scratch(size), read_data_matrix_scratch(size)));
 }
 
-/// Reads the codes of an image: first what is found fastest, QR, then bars, then Data Matrix; if there are none, again with
-/// all means.
+/// Reads the codes of an image: first what is found fastest, QR, then bars, then Data Matrix; if there are
+/// none, again with all means.
 ///
 /// Shapes   src 1x1 or larger
 /// Time     bounded, as read_qr(), read_data_matrix() and read_bars() are
 /// Scratch  read_codes_scratch(src.size()) bytes, undefined afterwards
-/// Errors   empty_image; bad_argument for no symbology or no code to look for; scratch_too_small; not_found; undecided where
-///          something was read on which lines did not agree; buffer_too_small and capacity_exceeded with the codes that had
-///          room. Text and codes are appended to
+/// Errors   empty_image; bad_argument for no symbology or no code to look for; scratch_too_small; not_found;
+///          undecided where something was read on which lines did not agree; buffer_too_small and
+///          capacity_exceeded with the codes that had room. Text and codes are appended to
 /// Source   book ch. 5
 inline Status read_codes(ImageView<const Gray8> src, const ReadCodesOptions& options,
                          Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes);

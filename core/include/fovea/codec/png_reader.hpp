@@ -272,7 +272,7 @@ constexpr std::uint32_t packed_sample(const std::uint8_t* row, int index, int de
     return static_cast<std::uint32_t>(row[bit / 8] >> shift & ((1 << depth) - 1));
 }
 
-/// A sample as it is seen on white through its alpha, both 0..most <= 65535; to the nearest.
+/// A sample as it is seen on white through its alpha, both 0..most <= 65535.
 constexpr std::uint32_t png_on_white(std::uint32_t sample, std::uint32_t alpha, std::uint32_t most) {
     return most - ((most - sample) * alpha + most / 2) / most;
 }
@@ -295,8 +295,7 @@ void png_sample_row(const PngHeader& header, Sample sample, Pixel* dst) {
         const int i = x * samples;
         const std::uint32_t alpha = samples == 4 ? sample(i + 3) : most;
         const auto channel = [&](int k) {
-            return pixel_of_gray<Gray8>(samples == 4 ? png_on_white(sample(k), alpha, most) : sample(k),
-                                        most);
+            return pixel_of_gray<Gray8>(png_on_white(sample(k), alpha, most), most);
         };
         dst[x] = pixel_of_colour<Pixel>({channel(i), channel(i + 1), channel(i + 2)});
     }

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+//
+// Scan lines: the brightness along a line at any angle, averaged over some parallel ones.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/span.hpp>
+#include <fovea/code/bar_edges.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/number/fixed.hpp>
+#include <fovea/number/integer.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+/// Samples along a line, a pixel or less apart.
+struct BarLine {
+    FinePoint from;
+    FinePoint step;  ///< from one sample to the next
+    int samples = 0;
+};
+
+/// The point at a place in 1/256 sample.
+constexpr SubPixelPoint point_of(const BarLine& line, std::int32_t place);
+
+/// The part of a line through two points that lies in the image and reaches beyond either end by `beyond` /
+/// 16 of their distance. No samples if they are one.
+inline BarLine bar_line_through(Size size, SubPixelPoint from, SubPixelPoint to, int beyond);
+
+/// Samples a line inside the image, each the mean of `breadth` parallel lines a pixel apart, breadth odd.
+/// What lies outside the image is what its border shows.
+inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int breadth,
+                            Span<std::int16_t> profile);
+
+// ---- Implementation ---------------------------------------------------------------
+
+constexpr SubPixelPoint point_of(const BarLine& line, std::int32_t place) {
+    const auto at = [&](FinePixel from, FinePixel step) {
+        return SubPixel::from_raw(
+            static_cast<std::int32_t>(round_shift(from.raw() + (std::int64_t{step.raw()} * place >> 8), 8)));
+    };
+    return {at(line.from.x, line.step.x), at(line.from.y, line.step.y)};
+}
+
+namespace detail {
+
+/// Narrows the samples low..high to those for which 0 <= from + step * sample <= most.
+constexpr void clip_samples(std::int64_t from, std::int64_t step, std::int64_t most, std::int64_t& low,
+                            std::int64_t& high) {
+    if (step == 0) {
+        if (from < 0 || from > most) high = low - 1;
+        return;
+    }
+    const std::int64_t a = step > 0 ? -from : from - most;
+    const std::int64_t b = step > 0 ? most - from : from;
+    const std::int64_t pace = step > 0 ? step : -step;
+    low = maximum(low, -floor_divide(-a, pace));
+    high = minimum(high, floor_divide(b, pace));
+}
+
+}  // namespace detail
+
+inline BarLine bar_line_through(Size size, SubPixelPoint from, SubPixelPoint to, int beyond) {
+    const std::int64_t x = std::int64_t{to.x.raw()} - from.x.raw();
+    const std::int64_t y = std::int64_t{to.y.raw()} - from.y.raw();
+    const std::int64_t length = hypotenuse(x, y);
+    BarLine line;
+    if (length < 256) return line;
+    const std::int64_t step_x = round_divide(x * 65536, length);
+    const std::int64_t step_y = round_divide(y * 65536, length);
+    const std::int64_t samples = length / 256;
+    std::int64_t low = -samples * beyond / 16;
+    std::int64_t high = samples + samples * beyond / 16;
+    const std::int64_t from_x = std::int64_t{from.x.raw()} * 256;
+    const std::int64_t from_y = std::int64_t{from.y.raw()} * 256;
+    detail::clip_samples(from_x, step_x, (std::int64_t{size.width} - 1) * 65536, low, high);
+    detail::clip_samples(from_y, step_y, (std::int64_t{size.height} - 1) * 65536, low, high);
+    if (high <= low) return line;
+    const auto raw = [](std::int64_t value) { return FinePixel::from_raw(static_cast<std::int32_t>(value)); };
+    line.from = {raw(from_x + low * step_x), raw(from_y + low * step_y)};
+    line.step = {raw(step_x), raw(step_y)};
+    line.samples = static_cast<int>(minimum<std::int64_t>(high - low + 1, size.width + size.height));
+    return line;
+}
+
+inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int breadth,
+                            Span<std::int16_t> profile) {
+    const int last_x = src.width() - 1;
+    const int last_y = src.height() - 1;
+    const std::int32_t from_x = line.from.x.raw();
+    const std::int32_t from_y = line.from.y.raw();
+    const std::int32_t step_x = line.step.x.raw();
+    const std::int32_t step_y = line.step.y.raw();
+    const bool on_grid = (from_x & 0xffff) == 0 && (from_y & 0xffff) == 0;
+    const bool is_row = on_grid && step_x == 65536 && step_y == 0;
+    const bool is_column = on_grid && step_x == 0 && step_y == 65536;
+    if (is_row && breadth == 1) {
+        const Gray8* row = src.row(from_y >> 16) + (from_x >> 16);
+        for (int i = 0; i < line.samples; ++i) profile[i] = static_cast<std::int16_t>(row[i] * 16);
+        return;
+    }
+    const std::int32_t reciprocal = 65536 / breadth;
+    if (is_row || is_column) {
+        const int half = breadth / 2;
+        for (int i = 0; i < line.samples; ++i) {
+            const int x = (from_x >> 16) + (is_row ? i : 0);
+            const int y = (from_y >> 16) + (is_row ? 0 : i);
+            std::int32_t sum = 0;
+            for (int k = -half; k <= half; ++k) {
+                sum += is_row ? src(x, clamp(y + k, 0, last_y)) : src(clamp(x + k, 0, last_x), y);
+            }
+            profile[i] = static_cast<std::int16_t>((sum * 16 * reciprocal + 32768) >> 16);
+        }
+        return;
+    }
+    for (int i = 0; i < line.samples; ++i) {
+        std::int32_t sum = 0;
+        for (int k = -(breadth / 2); k <= breadth / 2; ++k) {
+            // Across the line: the step turned by a quarter.
+            const std::int64_t wide_x =
+                std::int64_t{from_x} + std::int64_t{step_x} * i - std::int64_t{step_y} * k;
+            const std::int64_t wide_y =
+                std::int64_t{from_y} + std::int64_t{step_y} * i + std::int64_t{step_x} * k;
+            const auto x =
+                static_cast<std::int32_t>(clamp<std::int64_t>(wide_x, 0, std::int64_t{last_x} * 65536));
+            const auto y =
+                static_cast<std::int32_t>(clamp<std::int64_t>(wide_y, 0, std::int64_t{last_y} * 65536));
+            const int left = x >> 16;
+            const int top = y >> 16;
+            const std::int32_t right_share = x >> 8 & 255;
+            const std::int32_t bottom_share = y >> 8 & 255;
+            const Gray8* upper = src.row(top);
+            const Gray8* lower = src.row(minimum(top + 1, last_y));
+            const int right = minimum(left + 1, last_x);
+            const std::int32_t a = upper[left] * (256 - right_share) + upper[right] * right_share;
+            const std::int32_t b = lower[left] * (256 - right_share) + lower[right] * right_share;
+            sum += (a * (256 - bottom_share) + b * bottom_share) >> 12;
+        }
+        profile[i] = static_cast<std::int16_t>((std::int64_t{sum} * reciprocal + 32768) >> 16);
+    }
+}
+
+}  // namespace fovea

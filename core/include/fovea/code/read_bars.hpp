@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+//
+// Bar codes in an image, at any angle. Book ch. 5.
+#pragma once
+
+#include <cstdint>
+
+#include <fovea/base/arena.hpp>
+#include <fovea/base/list.hpp>
+#include <fovea/base/span.hpp>
+#include <fovea/base/status.hpp>
+#include <fovea/code/bar_fields.hpp>
+#include <fovea/code/bar_grade.hpp>
+#include <fovea/code/bar_line.hpp>
+#include <fovea/code/bar_line_reader.hpp>
+#include <fovea/code/bar_reading.hpp>
+#include <fovea/code/bar_votes.hpp>
+#include <fovea/code/code.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+
+namespace fovea {
+
+// ---- Interface --------------------------------------------------------------------
+
+struct BarOptions {
+    BarRules rules;
+    int enough = 1;  ///< codes after which the search ends: more take longer, as the whole image is seen
+    int effort = 2;  ///< 0 rows and columns, 1 and tilted lines, 2 and every way to see weak edges
+    int agreeing_lines = 2;  ///< that a code needs at least; some need more, see bar_lines_needed(). 1..12
+};
+
+/// Scratch bytes that read_bars() needs.
+constexpr std::int64_t read_bars_scratch(Size size);
+
+/// Reads bar codes in an image: any angle, dark on light and light on dark, from either side.
+///
+/// Rows and columns come first, from the middle outwards, then lines across the fields of parallel edges,
+/// then all of it with other rules for what an edge is. Where a line reads a code its neighbours are asked. A
+/// code is told when enough lines agree on it; codes that contradict each other at one place are not told.
+///
+/// Shapes  any; codes with modules of a pixel or more, and quiet zones
+/// Errors  empty_image; bad_argument; scratch_too_small; not_found; undecided where lines read something on
+///         which not enough of them agree; buffer_too_small, capacity_exceeded with the first codes in the
+///         list. Text and list are appended to, and untouched where nothing was read
+/// Time    bounded: at most about a thousand lines
+inline Status read_bars(ImageView<const Gray8> src, const BarOptions& options, Span<std::uint8_t> scratch,
+                        CodeText& text, ListView<Code> codes);
+
+// ---- Implementation ---------------------------------------------------------------
+
+namespace detail {
+
+inline constexpr int most_bar_candidates = 16;
+inline constexpr int most_bar_fields = 12;
+
+class BarSearch {
+public:
+    BarSearch(ImageView<const Gray8> src, const BarOptions& options, Span<std::uint8_t> scratch)
+        : BarSearch(src, options, Arena(scratch)) {}
+    static constexpr std::int64_t most_samples(Size size) { return std::int64_t{size.width} + size.height; }
+    static constexpr std::int64_t scratch_bytes(Size size) {
+        return BarLineReader::scratch_bytes(most_samples(size), most_bar_candidates) +
+               arena_bytes<std::int16_t>(most_samples(size)) + bar_fields_scratch(size);
+    }
+
+    void run() {
+        search_grid(8, 0, 1);
+        if (!done() && options_.effort >= 1) search_fields();
+        if (!done() && options_.effort >= 2) search_grid(32, 2, 3);
+        reader_.settle_rest();
+    }
+    int settled() const { return reader_.settled(); }
+    Span<const BarCandidate> candidates() const { return reader_.candidates(); }
+
+    /// The grade of a settled candidate, along its first line.
+    CodeGrade grade(const BarCandidate& candidate) {
+        const BarLine line = bar_line_through(src_.size(), candidate.span.from, candidate.span.to, 4);
+        if (line.samples < fewest_bar_edges) return CodeGrade();
+        const Span<std::int16_t> profile = reader_.profile(line.samples);
+        sample_bar_line(src_, line, 1, profile);
+        const std::int32_t from = place_on(line, candidate.span.from);
+        const std::int32_t to = place_on(line, candidate.span.to);
+        return grade_bars(profile, reader_.turns_of(profile), from, to, candidate.reading);
+    }
+
+private:
+    BarSearch(ImageView<const Gray8> src, const BarOptions& options, Arena arena)
+        : src_(src),
+          options_(options),
+          reader_(options.rules, options.agreeing_lines, arena, most_samples(src.size()),
+                  most_bar_candidates) {
+        sharp_ = arena.take_unset<std::int16_t>(most_samples(src.size()));
+        fields_scratch_ = arena.take_unset<std::uint8_t>(bar_fields_scratch(src.size()));
+    }
+    bool done() const { return reader_.settled() >= options_.enough; }
+    bool is_settled(int which) const { return reader_.candidates()[which].settled; }
+    /// The sample of a line that lies nearest to a point of it.
+    static std::int32_t place_on(const BarLine& line, SubPixelPoint point) {
+        const std::int64_t x = std::int64_t{point.x.raw()} * 256 - line.from.x.raw();
+        const std::int64_t y = std::int64_t{point.y.raw()} * 256 - line.from.y.raw();
+        return static_cast<std::int32_t>(
+            round_shift(round_shift(x * line.step.x.raw() + y * line.step.y.raw(), 16), 16));
+    }
+
+    /// Rows and columns in turn, from the middle outwards, `lines` of each to either side.
+    void search_grid(int lines, int level, int breadth) {
+        for (int i = 0; i < 2 * lines && !done(); ++i) {
+            const int step = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
+            const int y = src_.height() / 2 + step * src_.height() / (2 * lines + 1);
+            const int x = src_.width() / 2 + step * src_.width() / (2 * lines + 1);
+            if (y >= 0 && y < src_.height()) scan_and_ask(row_line(y), level, breadth);
+            if (done()) return;
+            if (x >= 0 && x < src_.width()) scan_and_ask(column_line(x), level, breadth);
+        }
+    }
+
+    void search_fields() {
+        List<BarField, most_bar_fields> fields;
+        if (find_bar_fields(src_, fields_scratch_, fields.view()) != Status::ok) return;
+        for (int level = 1; level <= options_.effort; ++level) {
+            for (const BarField& field : fields) {
+                for (int breadth = 1; breadth <= 5 && !done(); breadth += 4) {
+                    search_field(field, level, minimum(breadth, field.height / 4 | 1));
+                }
+                if (done()) return;
+            }
+        }
+    }
+
+    void search_field(const BarField& field, int level, int breadth) {
+        constexpr int lines = 6;
+        const UnitVector along = unit_vector(field.across);
+        const auto at = [&](std::int64_t u, std::int64_t v) {  // in 1/256 px
+            return SubPixelPoint{
+                SubPixel::from_raw(static_cast<std::int32_t>(
+                    field.centre.x.raw() + ((u * along.x.raw() - v * along.y.raw()) >> 30))),
+                SubPixel::from_raw(static_cast<std::int32_t>(
+                    field.centre.y.raw() + ((u * along.y.raw() + v * along.x.raw()) >> 30)))};
+        };
+        const std::int64_t half = std::int64_t{field.length} * 128;
+        for (int i = 0; i < 2 * lines + 1 && !done(); ++i) {
+            const int step = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);
+            const std::int64_t v = std::int64_t{field.height} * 256 * step / (2 * lines + 1);
+            scan_and_ask(bar_line_through(src_.size(), at(-half, v), at(half, v), 6), level, breadth);
+        }
+    }
+
+    BarLine row_line(int y) const {
+        return {{FinePixel(), FinePixel::from_int(y)}, {FinePixel::from_int(1), FinePixel()}, src_.width()};
+    }
+    BarLine column_line(int x) const {
+        return {{FinePixel::from_int(x), FinePixel()}, {FinePixel(), FinePixel::from_int(1)}, src_.height()};
+    }
+
+    /// Scans a line, and the neighbours of what it reads: as it was read first, then with all means.
+    void scan_and_ask(const BarLine& line, int level, int breadth) {
+        reader_.forget_fresh();
+        scan(line, level, breadth);
+        if (reader_.fresh() < 0 || done()) return;
+        const int which = reader_.fresh();
+        const BarSpan span = reader_.fresh_span();
+        ask_neighbours(which, span, level, breadth, 0);
+        if (options_.effort < 2) return;
+        for (int wide = 1; wide <= 5 && !is_settled(which); wide += 2) {
+            ask_neighbours(which, span, 2, wide, wide);
+        }
+    }
+    /// Sixteen lines to both sides of a span; shift moves them, in 1/8 of their distance.
+    void ask_neighbours(int which, const BarSpan& span, int level, int breadth, int shift) {
+        const std::int64_t x = std::int64_t{span.to.x.raw()} - span.from.x.raw();
+        const std::int64_t y = std::int64_t{span.to.y.raw()} - span.from.y.raw();
+        const std::int64_t length = maximum<std::int64_t>(hypotenuse(x, y), 256);
+        const std::int64_t pace = maximum<std::int64_t>(512, length / 64);
+        // Quiet zones of a quarter; an add-on is more than half as long as its code.
+        const int beyond = options_.rules.add_on == AddOn::appended ? 12 : 4;
+        for (int i = 0; i < 16 && !is_settled(which); ++i) {
+            const std::int64_t away = pace * (i / 2 + 1) * (i % 2 == 0 ? 1 : -1) + pace * shift / 8;
+            const auto moved = [&](SubPixelPoint p) {
+                p.x += SubPixel::from_raw(static_cast<std::int32_t>(-y * away / length));
+                p.y += SubPixel::from_raw(static_cast<std::int32_t>(x * away / length));
+                return p;
+            };
+            scan(bar_line_through(src_.size(), moved(span.from), moved(span.to), beyond), level, breadth);
+        }
+    }
+
+    void scan(const BarLine& line, int level, int breadth) {
+        if (line.samples < fewest_bar_edges) return;
+        sample_bar_line(src_, line, breadth, reader_.profile(line.samples));
+        reader_.read(line, level, sharp_);
+    }
+
+    ImageView<const Gray8> src_;
+    const BarOptions& options_;
+    BarLineReader reader_;
+    Span<std::int16_t> sharp_;
+    Span<std::uint8_t> fields_scratch_;
+};
+
+}  // namespace detail
+
+constexpr std::int64_t read_bars_scratch(Size size) { return detail::BarSearch::scratch_bytes(size); }
+
+inline Status read_bars(ImageView<const Gray8> src, const BarOptions& options, Span<std::uint8_t> scratch,
+                        CodeText& text, ListView<Code> codes) {
+    if (src.empty()) return Status::empty_image;
+    if (!is_valid(options.rules) || options.enough < 1 || options.effort < 0 || options.effort > 2 ||
+        options.agreeing_lines < 1 || options.agreeing_lines > BarCandidate::most_offsets) {
+        return Status::bad_argument;
+    }
+    if (scratch.size() < read_bars_scratch(src.size())) return Status::scratch_too_small;
+    detail::BarSearch search(src, options, scratch);
+    search.run();
+    bool doubtful = false;
+    for (const BarCandidate& candidate : search.candidates()) {
+        if (!candidate.settled) {
+            doubtful = true;
+            continue;
+        }
+        Code code = detail::code_of(candidate);
+        code.grade = search.grade(candidate);
+        const Status status = detail::append_code(candidate, code, text, codes);
+        if (status != Status::ok) return status;
+    }
+    if (search.settled() > 0) return Status::ok;
+    return doubtful ? Status::undecided : Status::not_found;
+}
+
+}  // namespace fovea
