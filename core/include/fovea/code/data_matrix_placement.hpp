@@ -101,21 +101,21 @@ public:
 
 private:
     /// Row and column of a bit; below 0 counted from the end.
-    struct CodewordPlace {
+    struct Place {
         std::int8_t row;
         std::int8_t column;
     };
     // ISO/IEC 16022, annex F.3, figures F.3 to F.6: bit 8 first.
-    static constexpr CodewordPlace corner_1[8] = {{-1, 0}, {-1, 1}, {-1, 2}, {0, -2},
+    static constexpr Place corner_1[8] = {{-1, 0}, {-1, 1}, {-1, 2}, {0, -2},
                                           {0, -1}, {1, -1}, {2, -1}, {3, -1}};
-    static constexpr CodewordPlace corner_2[8] = {{-3, 0}, {-2, 0}, {-1, 0}, {0, -4},
+    static constexpr Place corner_2[8] = {{-3, 0}, {-2, 0}, {-1, 0}, {0, -4},
                                           {0, -3}, {0, -2}, {0, -1}, {1, -1}};
-    static constexpr CodewordPlace corner_3[8] = {{-3, 0}, {-2, 0}, {-1, 0}, {0, -2},
+    static constexpr Place corner_3[8] = {{-3, 0}, {-2, 0}, {-1, 0}, {0, -2},
                                           {0, -1}, {1, -1}, {2, -1}, {3, -1}};
-    static constexpr CodewordPlace corner_4[8] = {{-1, 0}, {-1, -1}, {0, -3}, {0, -2},
+    static constexpr Place corner_4[8] = {{-1, 0}, {-1, -1}, {0, -3}, {0, -2},
                                           {0, -1}, {1, -3},  {1, -2}, {1, -1}};
     /// Figure F.1, from the last module, whose place the codeword has.
-    static constexpr CodewordPlace shape[8] = {{-2, -2}, {-2, -1}, {-1, -2}, {-1, -1},
+    static constexpr Place shape[8] = {{-2, -2}, {-2, -1}, {-1, -2}, {-1, -1},
                                        {-1, 0},  {0, -2},  {0, -1},  {0, 0}};
 
     template <class Visit>
@@ -141,9 +141,9 @@ private:
         for (int i = 0; i < 8; ++i) at(codeword, 7 - i, column + shape[i].column, row + shape[i].row, visit);
     }
     template <class Visit>
-    void corner(const CodewordPlace (&places)[8], int codeword, Visit& visit) {
+    void corner(const Place (&places)[8], int codeword, Visit& visit) {
         for (int i = 0; i < 8; ++i) {
-            const CodewordPlace p = places[i];
+            const Place p = places[i];
             at(codeword, 7 - i, p.column < 0 ? width_ + p.column : p.column,
                p.row < 0 ? height_ + p.row : p.row, visit);
         }
