@@ -12,6 +12,7 @@
 #include <fovea/code/code_128_encoder.hpp>
 #include <fovea/code/read_bars.hpp>
 #include <fovea/code/two_width_encoder.hpp>
+#include <golden/code_qr_vectors.hpp>
 #include <golden/digest.hpp>
 #include <golden/workspace.hpp>
 
@@ -19,9 +20,6 @@ namespace fovea::golden {
 
 inline void put(Digest& digest, SymbologySet set) {
     for (int i = 0; i < symbology_count; ++i) digest.add(set.contains(static_cast<Symbology>(i)));
-}
-inline void put(Digest& digest, const CodeGrade& grade) {
-    digest.add(grade.overall, grade.symbol_contrast, grade.modulation, grade.decodability, grade.quiet_zone);
 }
 inline void put(Digest& digest, const BarReading& reading) {
     digest.add(reading.symbology, reading.aim_digit, reading.first, reading.last, reading.error);

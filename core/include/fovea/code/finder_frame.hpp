@@ -20,9 +20,9 @@ struct PlaceLine {
 constexpr bool meet(const PlaceLine& a, const PlaceLine& b, Place& place) {
     const Place along = a.to - a.from;
     const Place other = b.to - b.from;
-    const std::int64_t divisor = cross(along, other);
+    const std::int64_t divisor = cross_product(along, other);
     if (divisor == 0) return false;
-    const std::int64_t share = cross(b.from - a.from, other);
+    const std::int64_t share = cross_product(b.from - a.from, other);
     // The share of the way to 2^-12, held at 64 times the way.
     const std::int64_t scaled = clamp<std::int64_t>(share * 4096 / divisor, -64 * 4096, 64 * 4096);
     place = a.from + along * scaled / 4096;

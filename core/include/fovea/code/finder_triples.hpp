@@ -90,7 +90,7 @@ private:
     void set(Triple& triple, int corner, int one, int other) const {
         const Place u = patterns_[one].centre - patterns_[corner].centre;
         const Place v = patterns_[other].centre - patterns_[corner].centre;
-        const bool clockwise = cross(u, v) > 0;
+        const bool clockwise = cross_product(u, v) > 0;
         triple.pattern[0] = corner;
         triple.pattern[1] = clockwise ? one : other;
         triple.pattern[2] = clockwise ? other : one;

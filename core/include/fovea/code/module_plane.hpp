@@ -23,7 +23,7 @@ struct Place {
     friend constexpr Place operator/(Place a, std::int64_t k) { return {a.x / k, a.y / k}; }
 };
 constexpr std::int64_t dot(Place a, Place b) { return a.x * b.x + a.y * b.y; }
-constexpr std::int64_t cross(Place a, Place b) { return a.x * b.y - a.y * b.x; }
+constexpr std::int64_t cross_product(Place a, Place b) { return a.x * b.y - a.y * b.x; }
 constexpr std::int64_t length(Place a) { return hypotenuse(a.x, a.y); }
 constexpr Place pixel_place(int x, int y) { return {std::int64_t{x} * 256, std::int64_t{y} * 256}; }
 constexpr std::int64_t module_units = 16;
@@ -115,10 +115,10 @@ private:
         const Place one = p[1] - p[2];
         const Place three = p[3] - p[2];
         const Place skew = p[0] - p[1] + p[2] - p[3];
-        const std::int64_t w = cross(one, three);
+        const std::int64_t w = cross_product(one, three);
         if (w == 0) return false;
-        const std::int64_t g = cross(skew, three);
-        const std::int64_t h = cross(one, skew);
+        const std::int64_t g = cross_product(skew, three);
+        const std::int64_t h = cross_product(one, skew);
         const auto set = [&](int row, std::int64_t zero, std::int64_t first, std::int64_t third) {
             out.e[row * 3] = Int128::product(first - zero, w) + Int128::product(first, g);
             out.e[row * 3 + 1] = Int128::product(third - zero, w) + Int128::product(third, h);
