@@ -44,7 +44,7 @@ constexpr std::int32_t module_of(const BlurPlan& plan, const BlurScene& scene) {
 }
 constexpr Ratio blur_in_modules(const BlurPlan& plan, const BlurScene& scene) {
     const std::int64_t modules =
-        std::int64_t{scene.blur} * plan.modules * Ratio::one / maximum(length_of(scene), 1);
+        std::int64_t{scene.blur} * plan.modules * Ratio::one / maximum<std::int32_t>(length_of(scene), 1);
     return Ratio::from_raw(
         static_cast<std::int32_t>(clamp<std::int64_t>(modules, Ratio::one * 3 / 10, Ratio::one * 7 / 2)));
 }
@@ -77,7 +77,7 @@ inline LightAt light_at(const BlurPlan& plan, const BlurLight& light, int sample
         return level[0] +
                static_cast<std::int32_t>(std::int64_t{level[1] - level[0]} * place / (2 * plan.modules));
     };
-    return {line(light.white), maximum(line(light.dark), 256)};
+    return {line(light.white), maximum<std::int32_t>(line(light.dark), 256)};
 }
 
 /// Levels as darkness: 0 white, full_darkness black, and as much more to both sides as cost_letters() bears.

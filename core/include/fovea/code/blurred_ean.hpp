@@ -242,7 +242,7 @@ private:
         return found;
     }
     std::int32_t residual_of(std::int32_t cost) const {
-        const std::int64_t square = (std::int64_t{maximum(cost, 0)} << 12) / plan_.samples();
+        const std::int64_t square = (std::int64_t{maximum<std::int32_t>(cost, 0)} << 12) / plan_.samples();
         return static_cast<std::int32_t>(isqrt(static_cast<std::uint64_t>(square)));
     }
     void tell(const BlurTrial& trial, const CheapestDigits& found, BlurredEan& best) const {
@@ -256,7 +256,7 @@ private:
         best.blur = FinePixel::from_raw(trial.scene.blur);
         best.residual = Ratio::from_raw(residual_of(found.cost));
         best.margin = Ratio::from_raw(static_cast<std::int32_t>(minimum<std::int64_t>(
-            std::int64_t{found.second} * Ratio::one / maximum(found.cost, 1), 8 * Ratio::one)));
+            std::int64_t{found.second} * Ratio::one / maximum<std::int32_t>(found.cost, 1), 8 * Ratio::one)));
     }
 
     Span<const std::uint16_t> profile_;
