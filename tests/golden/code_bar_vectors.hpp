@@ -99,7 +99,7 @@ inline void draw_edges(ImageView<Gray8> image, BarEdges edges, int slant, Random
             for (std::ptrdiff_t i = 1; i + 1 < edges.size(); i += 2) {
                 const std::int32_t from = maximum(edges[i], left);
                 const std::int32_t to = minimum(edges[i + 1], left + 256);
-                dark += maximum(to - from, 0);
+                dark += maximum<std::int32_t>(to - from, 0);
             }
             image(x, y) = static_cast<Gray8>(190 - (dark * 130 >> 8) + random.between(-6, 6));
         }

@@ -130,7 +130,7 @@ inline std::int32_t crossing(BarProfile profile, BarTurn from, BarTurn to, std::
         const std::int32_t a = profile[left];
         const std::int32_t b = profile[left + 1];
         if (a == b) return left * 256 + 128;
-        return left * 256 + clamp((level - a) * 256 / (b - a), 0, 256);
+        return left * 256 + clamp<std::int32_t>((level - a) * 256 / (b - a), 0, 256);
     };
     return (between(at) + between(back - 1)) / 2;
 }
@@ -151,11 +151,11 @@ inline std::int32_t steepest(BarProfile profile, BarTurn from, BarTurn to) {
             end = at;
     }
     if (end > best) return (best + end) * 128 + 128;
-    const std::int32_t before = maximum(slope(best - 1), 0);
-    const std::int32_t behind = maximum(slope(best + 1), 0);
+    const std::int32_t before = maximum<std::int32_t>(slope(best - 1), 0);
+    const std::int32_t behind = maximum<std::int32_t>(slope(best + 1), 0);
     const std::int32_t bend = 2 * slope(best) - before - behind;
     const std::int32_t shift = bend > 0 ? (behind - before) * 128 / bend : 0;
-    return best * 256 + 128 + clamp(shift, -128, 128);
+    return best * 256 + 128 + clamp<std::int32_t>(shift, -128, 128);
 }
 
 }  // namespace detail
@@ -180,7 +180,7 @@ inline int find_bar_turns(BarProfile profile, int share, Span<std::int16_t> rang
     std::int32_t low_at = 0;
     int heading = 0;  // 1 where the last turn was dark, -1 where it was bright
     for (int block = 0; block * detail::bar_block < length; ++block) {
-        const std::int32_t step = maximum(floor, ranges[block] / share);
+        const std::int32_t step = maximum<std::int32_t>(floor, ranges[block] / share);
         const int end = minimum(length, (block + 1) * detail::bar_block);
         for (int at = block * detail::bar_block; at < end; ++at) {
             const std::int32_t level = profile[at];

@@ -41,7 +41,7 @@ constexpr std::int8_t grade_of(std::int64_t value, std::int64_t whole, const std
 inline CodeGrade grade_bars(BarProfile profile, Span<const BarTurn> turns, std::int32_t from, std::int32_t to,
                             const BarReading& reading) {
     CodeGrade grade;
-    const std::int32_t first = maximum(minimum(from, to), 0);
+    const std::int32_t first = maximum<std::int32_t>(minimum(from, to), 0);
     const std::int32_t last = minimum(maximum(from, to), static_cast<std::int32_t>(profile.size()) - 1);
     std::int32_t darkest = 4096;
     std::int32_t brightest = -1;

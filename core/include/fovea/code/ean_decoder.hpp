@@ -86,7 +86,7 @@ constexpr bool read_ean_digit(const EanSymbol& symbol, int at, std::int64_t seve
             const int a = near - 64 * (w0 + w1);
             const int b = far - 64 * (w1 + w2);
             const int c = bars - 64 * wide;
-            if (magnitude(a) > 256 || magnitude(b) > 256 || magnitude(c) > 256) continue;
+            if (maximum(maximum(a, -a), maximum(maximum(b, -b), maximum(c, -c))) > 256) continue;
             const int distance = a * a + b * b + c * c / 2;
             if (distance < best) {
                 next = best;

@@ -15,7 +15,7 @@
 namespace fovea::detail {
 
 struct FinderPattern {
-    Place centre;             ///< 1/256 px
+    PlanePoint centre;        ///< 1/256 px
     std::int64_t module = 0;  ///< 1/256 px, about
     bool inverted = false;    ///< light where others are dark
     int lines = 1;            ///< rows that crossed it
@@ -32,7 +32,7 @@ struct FinderImage {
     bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < bits.width() && y < bits.height(); }
     bool dark(int x, int y) const { return inside(x, y) && bits(x, y) != inverted; }
     /// At a place, to the nearest pixel.
-    bool dark(Place place) const {
+    bool dark(PlanePoint place) const {
         return dark(static_cast<int>((place.x + 128) >> 8), static_cast<int>((place.y + 128) >> 8));
     }
 };
@@ -157,7 +157,7 @@ private:
         const bool inverted = !dark;
         const std::int64_t module = std::int64_t{runs.total()} * 256 / 7;
         for (FinderPattern& known : patterns_) {
-            const Place away = known.centre - pixel_place(x, y);
+            const PlanePoint away = known.centre - pixel_place(x, y);
             const std::int64_t near = maximum(known.module, module) * 3;
             if (known.inverted == inverted && magnitude(away.x) < magnitude(near) &&
                 magnitude(away.y) < magnitude(near)) {
@@ -203,12 +203,12 @@ private:
     }
     /// A circle of 2.3 modules is in the light ring in every direction of the sides, one of 1.2 in the dark
     /// middle. Sines of sixteenths of a turn, in 1/256.
-    static int rings(const FinderImage& image, Place centre, std::int64_t width, std::int64_t height) {
+    static int rings(const FinderImage& image, PlanePoint centre, std::int64_t width, std::int64_t height) {
         constexpr int sine[20] = {0,    98,   181,  237,  256,  237, 181, 98, 0,   -98,
                                   -181, -237, -256, -237, -181, -98, 0,   98, 181, 237};
         int right = 0;
         for (int i = 0; i < 16; ++i) {
-            const Place way{sine[i + 4] * width, sine[i] * height};
+            const PlanePoint way{sine[i + 4] * width, sine[i] * height};
             right += image.dark(centre + way * 23 / 70) ? 0 : 1;
             if (i % 2 == 0) right += image.dark(centre + way * 12 / 70) ? 1 : 0;
         }
