@@ -66,7 +66,9 @@ inline void code_blurred_ean(Workspace& work, Digest& digest) {
             read_blurred_ean(profile, {6, static_cast<int>(profile.size()) - 7},
                              of_13 ? Symbology::ean_13 : Symbology::ean_8, scratch);
         digest.add(ean.status());
-        if (ean.ok()) digest.add(*ean, votes.take(*ean), votes.decided(), votes.votes());
+        if (!ean.ok()) continue;
+        digest.add(*ean, votes.take(*ean));
+        digest.add(votes.decided(), votes.votes());
     }
     digest.add(read_blurred_ean({}, {}, Symbology::ean_13, scratch).status());
 }
