@@ -157,13 +157,9 @@ private:
         const bool inverted = !dark;
         const std::int64_t module = std::int64_t{runs.total()} * 256 / 7;
         for (FinderPattern& known : patterns_) {
-            const Place away = known.centre - pixel_place(x, y);
-            const std::int64_t near = maximum(known.module, module) * 3;
-            if (known.inverted == inverted && magnitude(away.x) < magnitude(near) &&
-                magnitude(away.y) < magnitude(near)) {
-                ++known.lines;
-                return;
-            }
+            if (known.rings < sure_rings || !close(known, pixel_place(x, y), module, inverted)) continue;
+            ++known.lines;
+            return;
         }
         check({bits_, inverted}, x, y, runs.total());
     }
@@ -199,6 +195,22 @@ private:
         if (found.rings < least_rings) return;
         found.module = (std::int64_t{width} + height) * turned / 14;
         found.inverted = image.inverted;
+        add(found);
+    }
+    /// Whether a row that crosses a pattern there is likely to cross the known one.
+    static bool close(const FinderPattern& known, Place centre, std::int64_t module, bool inverted) {
+        const Place away = known.centre - centre;
+        const std::uint64_t near = magnitude(minimum(known.module, module) * 5 / 2);
+        return known.inverted == inverted && magnitude(away.x) < near && magnitude(away.y) < near;
+    }
+    void add(const FinderPattern& found) {
+        for (FinderPattern& known : patterns_) {
+            if (!close(known, found.centre, found.module, found.inverted)) continue;
+            const int lines = known.lines + 1;
+            if (found.rings > known.rings) known = found;
+            known.lines = lines;
+            return;
+        }
         if (patterns_.push(found) != Status::ok) replace_weakest(found);
     }
     /// A circle of 2.3 modules is in the light ring in every direction of the sides, one of 1.2 in the dark
@@ -226,6 +238,7 @@ private:
     static constexpr int cross_slack = 18;
     static constexpr int diagonal_slack = 26;
     static constexpr int least_rings = 18;
+    static constexpr int sure_rings = 22;
 
     BitView<const BitWord> bits_;
     ListView<FinderPattern> patterns_;
