@@ -84,20 +84,25 @@ struct CrossRuns {
 inline CrossRuns cross_runs(const FinderImage& image, int x, int y, int dx, int dy, int most) {
     CrossRuns cross;
     int ends[2] = {};
+    const BitWord colour = image.inverted ? 0 : 1;
     for (int side = 0; side < 2; ++side) {
         const int sx = side == 0 ? -dx : dx;
         const int sy = side == 0 ? -dy : dy;
-        int px = x + sx;
-        int py = y + sy;
-        int steps = 0;
+        // Steps that stay in the image.
+        const int across = sx == 0 ? max_image_side : sx > 0 ? image.bits.width() - 1 - x : x;
+        const int along = sy == 0 ? max_image_side : sy > 0 ? image.bits.height() - 1 - y : y;
+        const int room = minimum(across, along);
+        const BitWord* row = image.bits.row(y);
+        int px = x;
+        int step = 1;
         for (int part = 0; part < 3; ++part) {
-            const bool dark = part != 1;
+            const BitWord wanted = part == 1 ? 1 - colour : colour;
             int count = 0;
-            while (count <= most && image.inside(px, py) && image.dark(px, py) == dark) {
-                ++count;
-                ++steps;
+            for (; step <= room && count <= most; ++step, ++count) {
+                const BitWord* next = row + sy * image.bits.stride_words();
+                if ((next[(px + sx) / bits_a_word] >> ((px + sx) % bits_a_word) & 1) != wanted) break;
+                row = next;
                 px += sx;
-                py += sy;
             }
             // The outer run may go on into a shadow.
             if ((count > most && part < 2) || (part > 0 && count == 0)) return cross;
