@@ -84,20 +84,25 @@ struct CrossRuns {
 inline CrossRuns cross_runs(const FinderImage& image, int x, int y, int dx, int dy, int most) {
     CrossRuns cross;
     int ends[2] = {};
+    const BitWord colour = image.inverted ? 0 : 1;
     for (int side = 0; side < 2; ++side) {
         const int sx = side == 0 ? -dx : dx;
         const int sy = side == 0 ? -dy : dy;
-        int px = x + sx;
-        int py = y + sy;
-        int steps = 0;
+        // Steps that stay in the image.
+        const int across = sx == 0 ? max_image_side : sx > 0 ? image.bits.width() - 1 - x : x;
+        const int along = sy == 0 ? max_image_side : sy > 0 ? image.bits.height() - 1 - y : y;
+        const int room = minimum(across, along);
+        const BitWord* row = image.bits.row(y);
+        int px = x;
+        int step = 1;
         for (int part = 0; part < 3; ++part) {
-            const bool dark = part != 1;
+            const BitWord wanted = part == 1 ? 1 - colour : colour;
             int count = 0;
-            while (count <= most && image.inside(px, py) && image.dark(px, py) == dark) {
-                ++count;
-                ++steps;
+            for (; step <= room && count <= most; ++step, ++count) {
+                const BitWord* next = row + sy * image.bits.stride_words();
+                if ((next[(px + sx) / bits_a_word] >> ((px + sx) % bits_a_word) & 1) != wanted) break;
+                row = next;
                 px += sx;
-                py += sy;
             }
             // The outer run may go on into a shadow.
             if ((count > most && part < 2) || (part > 0 && count == 0)) return cross;
@@ -157,13 +162,9 @@ private:
         const bool inverted = !dark;
         const std::int64_t module = std::int64_t{runs.total()} * 256 / 7;
         for (FinderPattern& known : patterns_) {
-            const PlanePoint away = known.centre - pixel_place(x, y);
-            const std::int64_t near = maximum(known.module, module) * 3;
-            if (known.inverted == inverted && magnitude(away.x) < magnitude(near) &&
-                magnitude(away.y) < magnitude(near)) {
-                ++known.lines;
-                return;
-            }
+            if (known.rings < sure_rings || !close(known, pixel_place(x, y), module, inverted)) continue;
+            ++known.lines;
+            return;
         }
         check({bits_, inverted}, x, y, runs.total());
     }
@@ -199,6 +200,22 @@ private:
         if (found.rings < least_rings) return;
         found.module = (std::int64_t{width} + height) * turned / 14;
         found.inverted = image.inverted;
+        add(found);
+    }
+    /// Whether a row that crosses a pattern there is likely to cross the known one.
+    static bool close(const FinderPattern& known, PlanePoint centre, std::int64_t module, bool inverted) {
+        const PlanePoint away = known.centre - centre;
+        const std::uint64_t near = magnitude(minimum(known.module, module) * 5 / 2);
+        return known.inverted == inverted && magnitude(away.x) < near && magnitude(away.y) < near;
+    }
+    void add(const FinderPattern& found) {
+        for (FinderPattern& known : patterns_) {
+            if (!close(known, found.centre, found.module, found.inverted)) continue;
+            const int lines = known.lines + 1;
+            if (found.rings > known.rings) known = found;
+            known.lines = lines;
+            return;
+        }
         if (patterns_.push(found) != Status::ok) replace_weakest(found);
     }
     /// A circle of 2.3 modules is in the light ring in every direction of the sides, one of 1.2 in the dark
@@ -226,6 +243,7 @@ private:
     static constexpr int cross_slack = 18;
     static constexpr int diagonal_slack = 26;
     static constexpr int least_rings = 18;
+    static constexpr int sure_rings = 22;
 
     BitView<const BitWord> bits_;
     ListView<FinderPattern> patterns_;

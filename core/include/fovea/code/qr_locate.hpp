@@ -224,23 +224,25 @@ public:
 
 private:
     static constexpr bool ring_dark(int x, int y) { return maximum(x < 0 ? -x : x, y < 0 ? -y : y) != 1; }
-    /// How many places beside the middles of modules have the colour of the middle, in the quarter opposite
-    /// of the corner finder.
+    /// How well modules that differ from the next one change half way to it, in the quarter opposite of the
+    /// corner finder. Where nothing differs, as beside the symbol, nothing is gained.
     int evenness(const ModulePlane& plane, int size) const {
         const int stride = size / 40 + 1;
         int even = 0;
         for (int y = size / 2; y < size; y += stride) {
             for (int x = size / 2; x < size; x += stride) {
-                const PlanePoint middle = module_centre(x, y);
-                const bool dark = image_.dark(plane(middle));
-                constexpr std::int64_t away = module_units * 3 / 8;
-                even += image_.dark(plane(middle + PlanePoint{away, away})) == dark ? 1 : 0;
-                even += image_.dark(plane(middle + PlanePoint{-away, away})) == dark ? 1 : 0;
-                even += image_.dark(plane(middle + PlanePoint{away, -away})) == dark ? 1 : 0;
-                even += image_.dark(plane(middle + PlanePoint{-away, -away})) == dark ? 1 : 0;
+                even += change(plane, module_centre(x, y), {module_units, 0});
+                even += change(plane, module_centre(x, y), {0, module_units});
             }
         }
         return even;
+    }
+    int change(const ModulePlane& plane, PlanePoint middle, PlanePoint way) const {
+        const bool dark = image_.dark(plane(middle));
+        if (image_.dark(plane(middle - way)) == dark) return 0;
+        const bool own = image_.dark(plane(middle - way * 3 / 8)) == dark;
+        const bool other = image_.dark(plane(middle - way * 5 / 8)) != dark;
+        return own && other ? 1 : -1;
     }
     /// From the lengths between finders, and from the modules counted along the timing patterns.
     void estimate_sizes() {

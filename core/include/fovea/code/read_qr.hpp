@@ -267,7 +267,7 @@ private:
     }
 
     static constexpr int tiny_side = 64;
-    static constexpr int tall = 200;  ///< px, from which on every other row is looked at
+    static constexpr int tall = 120;  ///< px, from which on every other row is looked at
     static constexpr int finest_block = 8;
     static constexpr int narrow_side = 15;
     static constexpr int narrow_reach = narrow_side / 2;
