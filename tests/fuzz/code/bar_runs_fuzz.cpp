@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any runs along a line, in every symbology: what is read has its digits, its check and its place; and what is
-// encoded of any bytes is read again.
+// Any runs along a line, in every symbology: what is read has its digits, its check and its place; and what
+// is encoded of any bytes is read again.
 #include <cstddef>
 #include <cstdint>
 #include <vector>

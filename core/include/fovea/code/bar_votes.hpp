@@ -98,8 +98,8 @@ constexpr bool is_same_place(const BarCandidate& candidate, const BarSpan& span,
     return along * 2 < offset.length && offset.across > candidate.lowest_offset - beside &&
            offset.across < candidate.highest_offset + beside;
 }
-/// Lines of the same text are of one code as far as its length apart; other texts may be those of another code
-/// above or below.
+/// Lines of the same text are of one code as far as its length apart; other texts may be those of another
+/// code above or below.
 inline constexpr int same_text_reach = 1;
 inline constexpr int other_text_reach = 4;
 
