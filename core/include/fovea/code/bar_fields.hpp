@@ -32,8 +32,8 @@ struct BarField {
 /// Scratch bytes of find_bar_fields().
 constexpr std::int64_t bar_fields_scratch(Size size);
 
-/// Finds the fields of parallel edges that are 40 px long or longer, the weightiest first, as many as the list
-/// holds.
+/// Finds the fields of parallel edges that are 40 px long or longer, the weightiest first, as many as the
+/// list holds.
 ///
 /// The image is cut into blocks of 16x16 pixels. Where the structure tensor of a block has one clear
 /// direction it joins the neighbours of about that direction.
