@@ -11,6 +11,8 @@
 
 #include <fovea/catalogue/catalogue.hpp>
 #include <fovea/code/read_qr.hpp>
+#include <fovea/code/bar_stream.hpp>
+#include <fovea/code/read_bars.hpp>
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>
@@ -68,6 +70,8 @@ int main() {
          [](Size size) { return connected_components_scratch(size.width, 64); }},
         {"find_circles of 10 to 100 px", [](Size size) { return find_circles_scratch(size, {}); }},
         {"block_motion, blocks of 16", [](Size size) { return block_motion_scratch(size, 16); }},
+        {"read_bars", read_bars_scratch},
+        {"BarStream", [](Size size) { return bar_stream_scratch(size.width); }},
         {"edge_probe", [](Size size) { return std::int64_t{2} * edge_probe_scratch(size); }},
         {"find_parts", [](Size size) { return find_parts_scratch(size, {}); }},
         {"find_parts after an opening", [&](Size size) { return find_parts_scratch(size, opened); }},

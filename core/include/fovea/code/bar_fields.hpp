@@ -32,7 +32,8 @@ struct BarField {
 /// Scratch bytes of find_bar_fields().
 constexpr std::int64_t bar_fields_scratch(Size size);
 
-/// Finds the fields of parallel edges, the weightiest first, as many as the list holds.
+/// Finds the fields of parallel edges that are 40 px long or longer, the weightiest first, as many as the
+/// list holds.
 ///
 /// The image is cut into blocks of 16x16 pixels. Where the structure tensor of a block has one clear
 /// direction it joins the neighbours of about that direction.
@@ -48,6 +49,9 @@ inline Status find_bar_fields(ImageView<const Gray8> src, Span<std::uint8_t> scr
 namespace detail {
 
 inline constexpr int field_block = 16;
+
+/// No code has fewer than forty modules of a pixel; what is shorter is a single edge.
+inline constexpr int shortest_field = 40;
 
 /// The structure tensor of a block: its direction in the doubled angle.
 struct FieldBlock {
@@ -195,8 +199,8 @@ inline Status find_bar_fields(ImageView<const Gray8> src, Span<std::uint8_t> scr
                 }
             }
         }
-        if (count < 2) continue;
-        detail::insert_field(fields, detail::field_of(blocks, {queue.data(), count}, columns));
+        const BarField field = detail::field_of(blocks, {queue.data(), count}, columns);
+        if (field.length >= detail::shortest_field) detail::insert_field(fields, field);
     }
     return fields.empty() ? Status::not_found : Status::ok;
 }

@@ -41,6 +41,8 @@ inline constexpr int ean_margin = 1000;
 /// UPC-E with 102 and more, blurred photos of true ones reach 80.
 inline constexpr int ean_8_worst = 100;
 inline constexpr int upc_e_worst = 88;
+/// Its digits must be nearer than those of the others: in blur a 2 was read for an 8.
+inline constexpr int upc_e_farthest = 1100;
 
 struct EanDigit {
     int value = 0;
@@ -56,6 +58,7 @@ struct EanSymbol {
     int modules = 0;
     std::int64_t gain = 0;  ///< by how much a bar is too wide
     std::int64_t error = 0;
+    int worst = 0;  ///< of the digits: squares of 1/64 module
 
     constexpr std::int32_t edge(int index) const { return edges[first + index]; }
     constexpr std::int64_t between(int from, int to) const { return std::int64_t{edge(to)} - edge(from); }
@@ -132,6 +135,7 @@ constexpr bool read_ean_digits(EanSymbol& symbol, int at, int count, bool begins
         }
         values[i] = static_cast<std::uint8_t>(digit.value);
         parity = parity << 1 | static_cast<unsigned>(digit.set_b);
+        symbol.worst = maximum(symbol.worst, digit.error);
         symbol.error += isqrt(static_cast<std::uint32_t>(digit.error));
     }
     return true;
@@ -270,7 +274,7 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     finish_ean(symbol, runs, 6, Symbology::upc_e, {3, 9}, {6, 7}, found);
     // The left half of an EAN-13 looks like a UPC-E that is followed by a space of up to four modules.
     if (symbol.between(runs, runs + 1) * 6 < symbol.between(27, 33) * 5) return false;
-    if (found.quiet < 256 / 2 || found.error > upc_e_worst) return false;
+    if (found.quiet < 256 / 2 || found.error > upc_e_worst || symbol.worst > upc_e_farthest) return false;
     set_digits(found, digits, 8);
     reading = found;
     return true;
@@ -279,7 +283,7 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
 /// Reads the add-on of so many digits behind the code of the reading.
 inline bool decode_add_on(EanSymbol code, int count, BarReading& reading) {
     const int runs = 6 * count + 1;
-    EanSymbol symbol{code.edges, reading.last + 1, 0, 0, code.gain, 0};
+    EanSymbol symbol{code.edges, reading.last + 1, 0, 0, code.gain, 0, 0};
     if (symbol.first + runs + 1 >= code.edges.size()) return false;
     symbol.modules = 9 * count + 2;
     symbol.width = symbol.between(0, runs);
@@ -313,7 +317,7 @@ inline bool decode_add_on(EanSymbol code, int count, BarReading& reading) {
 
 inline Status decode_ean(BarEdges edges, int first, const BarRules& rules, BarReading& reading) {
     if (first < 1 || first % 2 == 0 || first >= edges.size()) return Status::out_of_range;
-    detail::EanSymbol symbol{edges, first, 0, 0, 0, 0};
+    detail::EanSymbol symbol{edges, first, 0, 0, 0, 0, 0};
     const SymbologySet wanted = rules.symbologies;
     // Three runs of about the same width begin all of them.
     if (first + 3 >= edges.size()) return Status::not_found;

@@ -26,7 +26,8 @@ inline constexpr std::uint8_t interleaved_wide[10] = {0b00110, 0b10001, 0b01001,
 /// Nothing but the quiet zones tells a short code from a part of a longer one: they must be there, and the
 /// lengths are limited by the rules.
 ///
-/// Shapes    `first` odd. Quiet zones of at least half of what the standard asks
+/// Shapes    `first` odd. Quiet zones of at least three quarters of what the standard asks: in a blurred code
+///         two wide spaces and the narrow bar between them look like more than half of one
 /// Errors    out_of_range; not_found for what is none, with the reading untouched
 /// Source    ISO/IEC 16390, 4.3, 4.4 and annex A
 inline Status decode_interleaved(BarEdges edges, int first, const BarRules& rules, BarReading& reading);
@@ -38,6 +39,10 @@ namespace detail {
 /// Sixteenths by which the narrowest wide run is wider than the widest narrow one. Any two of five are a
 /// digit, so that it must be clear which.
 inline constexpr int interleaved_gap = 5;
+/// The worst mean error, in 1/256 of a narrow width: true codes have 13, nine of ten of them up to 24; a
+/// blurred Code 39 read as six digits with 40 and more.
+inline constexpr int short_interleaved_worst = 36;
+inline constexpr int interleaved_worst = 56;
 
 /// The digit of five bars or spaces, every second run from edge `at`; -1 if they are none.
 constexpr int read_interleaved_digit(BarEdges edges, int at, TwoWidths& sorted) {
@@ -85,7 +90,7 @@ inline Status decode_interleaved(BarEdges edges, int first, const BarRules& rule
     for (;; at += 10) {
         if (at + 4 >= edges.size()) return Status::not_found;
         // The stop pattern is a wide bar, a narrow space, a narrow bar and the quiet zone.
-        if (found.size > 0 && run(at) * 3 >= run(at + 2) * 4 && run(at + 3) >= 5 * narrow &&
+        if (found.size > 0 && run(at) * 3 >= run(at + 2) * 4 && run(at + 3) >= 7 * narrow &&
             run(at) <= 5 * narrow && run(at + 1) * 2 <= 5 * narrow && run(at + 2) * 2 <= 5 * narrow) {
             break;
         }
@@ -113,7 +118,10 @@ inline Status decode_interleaved(BarEdges edges, int first, const BarRules& rule
     found.error = static_cast<int>(error / pairs);
     found.quiet =
         minimum(detail::quiet_share(left, start, 4, 10), detail::quiet_share(run(at + 3), narrow, 1, 10));
-    if (found.quiet < 256 / 2) return Status::not_found;
+    if (found.quiet < 256 * 3 / 4) return Status::not_found;
+    if (found.error > (pairs <= 5 ? detail::short_interleaved_worst : detail::interleaved_worst)) {
+        return Status::not_found;
+    }
     reading = found;
     return Status::ok;
 }
