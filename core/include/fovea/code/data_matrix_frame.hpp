@@ -50,6 +50,7 @@ public:
         : field_(field),
           options_(options),
           scratch_(scratch),
+          dark_below_(corner.threshold),
           threshold_(16 * corner.threshold - 8),
           largest_(256 * (field.size().width + field.size().height)) {}
 
@@ -66,13 +67,15 @@ private:
                 EdgeLine& line) const;
     std::int32_t thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const;
     std::int32_t walk(const SolidLine& arm) const;
+    int thin_places(const BorderPiece& piece) const;
     /// Both begin where they meet.
     static bool settle(SolidLine& first, SolidLine& second);
 
     CodeField field_;
     FrameOptions options_;
     FrameScratch scratch_;
-    int threshold_;
+    int dark_below_;  ///< grey levels
+    int threshold_;   ///< in 1/16 of them
     int hysteresis_ = 64;
     std::int32_t largest_;
     std::int32_t module_ = 0;
@@ -186,7 +189,29 @@ inline bool FrameFinder::settle(SolidLine& first, SolidLine& second) {
     return true;
 }
 
+/// At how many of 15 places along a piece light lies behind the dark, nearer than a third of its length:
+/// beside the solid line of a symbol that is so for about half of the modules.
+inline int FrameFinder::thin_places(const BorderPiece& piece) const {
+    constexpr int places = 16;
+    const int reach = piece.length / 3;
+    const int step = maximum(reach / 8, 1);
+    int light = 0;
+    for (int i = 1; i < places; ++i) {
+        const int x = piece.first.x + static_cast<int>(piece.x() * i / places);
+        const int y = piece.first.y + static_cast<int>(piece.y() * i / places);
+        for (int depth = 1; depth <= reach; depth += step) {
+            if (field_.pixel(x - static_cast<int>(piece.y() * depth / piece.length),
+                             y + static_cast<int>(piece.x() * depth / piece.length)) < dark_below_)
+                continue;
+            ++light;
+            break;
+        }
+    }
+    return light;
+}
+
 inline Status FrameFinder::find_arms(const BorderCorner& corner) {
+    if (thin_places(corner.in) + thin_places(corner.out) < 2) return Status::not_found;
     const auto chord_of = [](const BorderPiece& piece) {
         return EdgeLine{{256 * piece.first.x, 256 * piece.first.y}, direction_of(piece.x(), piece.y())};
     };

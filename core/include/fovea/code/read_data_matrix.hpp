@@ -139,7 +139,7 @@ private:
         field_ = CodeField(image_, inverted);
         passed_.clear();
         const int height = image_.height();
-        const int step = clamp(height / 64, 3, 7);
+        const int step = clamp(height / 56, 3, 9);
         // First the middle, then halves and quarters, then all.
         for (int parts = 2; parts <= 8 && height / parts >= 2 * step; parts *= 2) {
             for (int i = 1; i < parts; i += 2) {
@@ -227,10 +227,21 @@ private:
         sort(found, [](const BorderCorner& a, const BorderCorner& b) { return a.weight > b.weight; });
         for (const BorderCorner& corner : found) {
             if (done()) break;
-            if (known(corner.in.last)) continue;
+            if (known(corner.in.last) || often_tried(corner)) continue;
             try_corner(corner);
         }
         count_ = 0;
+    }
+    /// Whether the same corner failed at heavier pieces, from other thresholds, often enough.
+    bool often_tried(const BorderCorner& corner) const {
+        constexpr int most = 4;
+        int tried = 0;
+        for (const BorderCorner* other = corners_.begin(); other != &corner; ++other) {
+            const int x = other->in.last.x - corner.in.last.x;
+            const int y = other->in.last.y - corner.in.last.y;
+            tried += x >= -3 && x <= 3 && y >= -3 && y <= 3 ? 1 : 0;
+        }
+        return tried >= most;
     }
     void try_corner(const BorderCorner& corner) {
         const FrameScratch scratch{{samples_, dashed_[0]}, dashed_[1], dashed_[2]};
