@@ -245,7 +245,7 @@ private:
     }
     void try_corner(const BorderCorner& corner) {
         const FrameScratch scratch{{samples_, dashed_[0]}, dashed_[1], dashed_[2]};
-        FrameFinder finder(field_, corner, {}, scratch);
+        FrameFinder finder(field_, corner, scratch);
         if (finder.find_arms(corner) != Status::ok) return;
         // Blur and dark neighbours make solid lines thicker than a module.
         constexpr int shares[] = {256, 166};
