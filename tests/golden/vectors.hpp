@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/code_data_matrix_vectors.hpp>
 #include <golden/codec_vectors.hpp>
 #include <golden/colour_vectors.hpp>
 #include <golden/decision_vectors.hpp>
@@ -114,6 +115,8 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"code/data_matrix_symbols", code_data_matrix_symbols},
+    {"code/read_data_matrix", code_read_data_matrix},
     {"codec/any_picture", codec_any_picture},
     {"codec/bmp", codec_bmp},
     {"codec/encode_bmp", codec_encode_bmp},

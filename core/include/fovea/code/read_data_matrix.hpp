@@ -46,7 +46,7 @@ constexpr std::int64_t read_data_matrix_scratch(Size size) {
     return half.area() + half.area() / 4 + arena_bytes<BitWord>(detail::PassedSides::words(size)) +
            arena_bytes<detail::BorderCorner>(data_matrix_corners) +
            arena_bytes<std::int16_t>(detail::dash_samples) + arena_bytes<detail::DashedLine>(3) +
-           2 * max_data_matrix_side * max_data_matrix_side +
+           2 * minimum<std::int64_t>(max_data_matrix_side * max_data_matrix_side, size.area()) +
            arena_bytes<BitWord>(std::int64_t{max_data_matrix_side} * bit_words(max_data_matrix_side)) +
            data_matrix_decode_scratch;
 }
@@ -86,8 +86,9 @@ public:
           corners_(arena_.take<BorderCorner>(data_matrix_corners)),
           samples_(arena_.take_unset<std::int16_t>(dash_samples)),
           dashed_(arena_.take<DashedLine>(3)),
-          values_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
-          sharpened_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
+          values_(arena_.take_unset<std::uint8_t>(
+              minimum<std::int64_t>(max_data_matrix_side * max_data_matrix_side, image.size().area()))),
+          sharpened_(arena_.take_unset<std::uint8_t>(values_.size())),
           words_(arena_.take_unset<BitWord>(std::int64_t{max_data_matrix_side} *
                                             bit_words(max_data_matrix_side))) {}
 
@@ -264,7 +265,8 @@ private:
             size = data_matrix_size(frame.columns, frame.rows);
             mirrored = size != nullptr;
         }
-        if (size == nullptr) return false;
+        // Modules of less than a pixel have no room, and say nothing.
+        if (size == nullptr || size->rows * size->columns > values_.size()) return false;
         if (mirrored) {
             const EdgePlace upper = frame.upper;
             frame.upper = frame.right;
