@@ -8,6 +8,7 @@
 #include <fovea/base/arena.hpp>
 #include <fovea/code/code.hpp>
 #include <fovea/code/data_matrix_decode.hpp>
+#include <fovea/code/data_matrix_encodation.hpp>
 #include <fovea/code/data_matrix_encode.hpp>
 #include <fovea/code/data_matrix_placement.hpp>
 #include <fovea/code/data_matrix_sizes.hpp>
@@ -42,6 +43,8 @@ inline void code_data_matrix_symbols(Workspace& work, Digest& digest) {
         const DataMatrixSize& size = data_matrix_sizes[index];
         digest.add(data_matrix_size(size.rows, size.columns) == &size,
                    data_matrix_border(size, index % size.columns, index % size.rows));
+        digest.add(size.square(), size.codewords(), size.block_parity(), size.region_rows(),
+                   size.region_columns(), size.mapping());
         Arena arena(work.scratch_span());
         const Span<std::uint8_t> room = arena.take<std::uint8_t>(64);
         const auto text = data_matrix_sample(random, random.between(1, minimum(int{size.data}, 40)), room);
@@ -67,6 +70,11 @@ inline void code_data_matrix_symbols(Workspace& work, Digest& digest) {
         put_data_matrix_text(digest, told);
         if (reading)
             digest.add(reading->message.aim_digit, reading->corrected_errors, reading->unused_correction);
+        const DataMatrixEncodation encodation(text, false,
+                                              scratch.first(data_matrix_encodation_scratch(text.size())));
+        std::uint8_t few[24] = {};
+        digest.add(encodation.write(0, few));
+        for (const std::uint8_t codeword : few) digest.add_byte(codeword);
         const Span<BitWord> words = arena.take<BitWord>(data_matrix_placement_scratch);
         const Span<std::uint8_t> codewords = arena.take<std::uint8_t>(size.codewords());
         digest.add(data_matrix_codewords(modules, size, words, codewords));

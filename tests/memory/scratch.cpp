@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fovea/catalogue/catalogue.hpp>
+#include <fovea/code/read_data_matrix.hpp>
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>
@@ -70,6 +71,7 @@ int main() {
         {"edge_probe", [](Size size) { return std::int64_t{2} * edge_probe_scratch(size); }},
         {"find_parts", [](Size size) { return find_parts_scratch(size, {}); }},
         {"find_parts after an opening", [&](Size size) { return find_parts_scratch(size, opened); }},
+        {"read_data_matrix", [](Size size) { return read_data_matrix_scratch(size); }},
         {"measure_feature", [](Size size) { return measure_feature_scratch(size); }},
         {"gauge, 1 part", [](Size size) { return gauge_scratch(size, {}, 1); }},
         {"gauge, 16 parts", [](Size size) { return gauge_scratch(size, {}, 16); }},

@@ -17,8 +17,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 /// Four corners, where the solid lines meet, where they end, and opposite; and how many modules lie between.
 struct DataMatrixFrame {
     EdgePlace corner;
@@ -75,8 +73,6 @@ private:
     SolidLine first_;  ///< along the way into the corner: below a symbol seen from the front
     SolidLine second_;
 };
-
-// ---- Implementation ---------------------------------------------------------------
 
 /// The edge near a chord that dark pixels' centres gave, between two ways along it.
 inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to,
