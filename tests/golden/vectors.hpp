@@ -15,6 +15,7 @@
 #include <golden/code_bar_vectors.hpp>
 #include <golden/code_blur_vectors.hpp>
 #include <golden/code_qr_vectors.hpp>
+#include <golden/code_data_matrix_vectors.hpp>
 #include <golden/codec_vectors.hpp>
 #include <golden/colour_vectors.hpp>
 #include <golden/decision_vectors.hpp>
@@ -131,6 +132,8 @@ inline constexpr Vector vectors[] = {
     {"code/bar_tables", code_bar_tables},
     {"code/bar_votes", code_bar_votes},
     {"code/read_bars", code_read_bars},
+    {"code/data_matrix_symbols", code_data_matrix_symbols},
+    {"code/read_data_matrix", code_read_data_matrix},
     {"codec/any_picture", codec_any_picture},
     {"codec/bmp", codec_bmp},
     {"codec/encode_bmp", codec_encode_bmp},

@@ -13,6 +13,7 @@
 #include <fovea/code/read_qr.hpp>
 #include <fovea/code/bar_stream.hpp>
 #include <fovea/code/read_bars.hpp>
+#include <fovea/code/read_data_matrix.hpp>
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>
@@ -76,6 +77,7 @@ int main() {
         {"find_parts", [](Size size) { return find_parts_scratch(size, {}); }},
         {"find_parts after an opening", [&](Size size) { return find_parts_scratch(size, opened); }},
         {"read_qr", [](Size size) { return read_qr_scratch(size); }},
+        {"read_data_matrix", [](Size size) { return read_data_matrix_scratch(size); }},
         {"measure_feature", [](Size size) { return measure_feature_scratch(size); }},
         {"gauge, 1 part", [](Size size) { return gauge_scratch(size, {}, 1); }},
         {"gauge, 16 parts", [](Size size) { return gauge_scratch(size, {}, 16); }},

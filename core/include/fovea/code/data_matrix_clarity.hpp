@@ -15,8 +15,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 inline SquareToQuad map_of(const DataMatrixFrame& frame);
 /// The side of a module along the lower line, 1/256 px.
 inline std::int32_t module_of(const DataMatrixFrame& frame, const DataMatrixSize& size);
@@ -25,8 +23,6 @@ inline std::int32_t module_of(const DataMatrixFrame& frame, const DataMatrixSize
 ///
 /// Time  at most 8 rounds a step and three steps, of 16 looks at all modules of the borders
 inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, DataMatrixFrame& frame);
-
-// ---- Implementation ---------------------------------------------------------------
 
 inline SquareToQuad map_of(const DataMatrixFrame& frame) {
     return SquareToQuad(frame.upper, frame.opposite, frame.right, frame.corner);

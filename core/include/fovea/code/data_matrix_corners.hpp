@@ -16,8 +16,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 /// A straight piece of a border, between centres of dark pixels, the dark on its right.
 struct BorderPiece {
     Point first;
@@ -174,8 +172,6 @@ inline void follow_corners(const CodeField& field, Point start, int from, int th
 /// Answers the steps that were walked.
 inline int scan_row_for_corners(const CodeField& field, int y, int first, int last, int contrast,
                                 const PassedSides& passed, ListView<BorderCorner> corners);
-
-// ---- Implementation ---------------------------------------------------------------
 
 inline void CornerFinder::add(Point p) {
     // In quarters of a pixel.

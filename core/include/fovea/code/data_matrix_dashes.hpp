@@ -14,8 +14,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 /// How a dashed line went on from its beginning in the middle of a dark module.
 struct DashedLine {
     static constexpr int most_changes = 2 * max_data_matrix_side;
@@ -73,8 +71,6 @@ private:
     int hysteresis_;
     std::int32_t largest_;
 };
-
-// ---- Implementation ---------------------------------------------------------------
 
 /// By how much dark modules are printed too large, on each side, 1/256 px.
 inline std::int32_t growth_of(const DashedLine& dashed) {

@@ -17,8 +17,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 /// Four corners, where the solid lines meet, where they end, and opposite; and how many modules lie between.
 struct DataMatrixFrame {
     EdgePlace corner;
@@ -27,29 +25,22 @@ struct DataMatrixFrame {
     EdgePlace opposite;
     int rows = 0;
     int columns = 0;
-    int bad = 0;             ///< periods of the dashed lines that are not like the others
-    std::int32_t pitch = 0;  ///< about the side of a module
 };
 
 /// Scratch of FrameFinder.
 struct FrameScratch {
     DashScratch dash;
-    DashedLine& above;
-    DashedLine& beside;
-};
-
-struct FrameOptions {
-    int gap = 205;  ///< of light that ends a solid line, in 1/256 of its thickness
+    DashedLine& above;   ///< from the end of the line on the left
+    DashedLine& beside;  ///< from the end of the line below
 };
 
 /// Finds the frame that begins at a corner; its parts share the levels and the size of a module.
 class FrameFinder {
 public:
-    FrameFinder(const CodeField& field, const BorderCorner& corner, const FrameOptions& options,
-                const FrameScratch& scratch)
+    FrameFinder(const CodeField& field, const BorderCorner& corner, const FrameScratch& scratch)
         : field_(field),
-          options_(options),
           scratch_(scratch),
+          dark_below_(corner.threshold),
           threshold_(16 * corner.threshold - 8),
           largest_(256 * (field.size().width + field.size().height)) {}
 
@@ -60,28 +51,28 @@ public:
 
 private:
     static constexpr int probes = 24;
+    static constexpr int gap_share = 205;  ///< of a module, in 1/256: light that ends a solid line
 
     int value(EdgePlace p) const { return field_.sample(p.x, p.y); }
     bool refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to, int most_places,
                 EdgeLine& line) const;
     std::int32_t thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const;
     std::int32_t walk(const SolidLine& arm) const;
+    int thin_places(const BorderPiece& piece) const;
     /// Both begin where they meet.
     static bool settle(SolidLine& first, SolidLine& second);
 
     CodeField field_;
-    FrameOptions options_;
     FrameScratch scratch_;
-    int threshold_;
+    int dark_below_;  ///< grey levels
+    int threshold_;   ///< in 1/16 of them
     int hysteresis_ = 64;
     std::int32_t largest_;
     std::int32_t module_ = 0;
     std::int32_t thickness_ = 0;
-    SolidLine first_;  ///< along the way into the corner: left of a symbol seen from the front
+    SolidLine first_;  ///< along the way into the corner: below a symbol seen from the front
     SolidLine second_;
 };
-
-// ---- Implementation ---------------------------------------------------------------
 
 /// The edge near a chord that dark pixels' centres gave, between two ways along it.
 inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::int32_t from, std::int32_t to,
@@ -150,8 +141,7 @@ inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t fr
 inline std::int32_t FrameFinder::walk(const SolidLine& arm) const {
     const std::int32_t depth = module_ / 2;
     const std::int32_t step = maximum(module_ / 8, 64);
-    const std::int32_t gap =
-        maximum(static_cast<std::int32_t>(std::int64_t{module_} * options_.gap >> 8), 256);
+    const std::int32_t gap = maximum(static_cast<std::int32_t>(std::int64_t{module_} * gap_share >> 8), 256);
     const EdgePlace start = arm.line.at + arm.inward.times(depth);
     const EdgePlace outside = arm.line.at - arm.inward.times(maximum(depth, 320));
     // Levels on both sides of the edge, which follow the light along it.
@@ -186,7 +176,29 @@ inline bool FrameFinder::settle(SolidLine& first, SolidLine& second) {
     return true;
 }
 
+/// At how many of 15 places along a piece light lies behind the dark, nearer than a third of its length:
+/// beside the solid line of a symbol that is so for about half of the modules.
+inline int FrameFinder::thin_places(const BorderPiece& piece) const {
+    constexpr int places = 16;
+    const int reach = piece.length / 3;
+    const int step = maximum(reach / 8, 1);
+    int light = 0;
+    for (int i = 1; i < places; ++i) {
+        const int x = piece.first.x + static_cast<int>(piece.x() * i / places);
+        const int y = piece.first.y + static_cast<int>(piece.y() * i / places);
+        for (int depth = 1; depth <= reach; depth += step) {
+            if (field_.pixel(x - static_cast<int>(piece.y() * depth / piece.length),
+                             y + static_cast<int>(piece.x() * depth / piece.length)) < dark_below_)
+                continue;
+            ++light;
+            break;
+        }
+    }
+    return light;
+}
+
 inline Status FrameFinder::find_arms(const BorderCorner& corner) {
+    if (thin_places(corner.in) + thin_places(corner.out) < 2) return Status::not_found;
     const auto chord_of = [](const BorderPiece& piece) {
         return EdgeLine{{256 * piece.first.x, 256 * piece.first.y}, direction_of(piece.x(), piece.y())};
     };
@@ -250,40 +262,38 @@ inline Result<DataMatrixFrame> FrameFinder::find(int share) {
     SolidLine second = second_;
     module_ = maximum(static_cast<std::int32_t>(std::int64_t{thickness_} * share >> 8), 200);
     DataMatrixFrame frame;
-    DashedLine& above = scratch_.above;
     DashedLine& beside = scratch_.beside;
-    EdgeLine upper;
+    DashedLine& above = scratch_.above;
     EdgeLine right;
+    EdgeLine upper;
     const auto with = [](int other) {
         return [other](int n) {
             return data_matrix_size(n, other) != nullptr || data_matrix_size(other, n) != nullptr;
         };
     };
     const DashFinder dashes(field_, module_, hysteresis_, scratch_.dash);
-    if (!dashes.find(first, second, is_side, above, upper)) return Status::not_found;
-    if (!dashes.find(second, first, with(above.modules()), beside, right)) {
-        if (!dashes.find(second, first, is_side, beside, right)) return Status::not_found;
-        if (!dashes.find(first, second, with(beside.modules()), above, upper)) return Status::not_found;
+    if (!dashes.find(first, second, is_side, beside, right)) return Status::not_found;
+    if (!dashes.find(second, first, with(beside.modules()), above, upper)) {
+        if (!dashes.find(second, first, is_side, above, upper)) return Status::not_found;
+        if (!dashes.find(first, second, with(above.modules()), beside, right)) return Status::not_found;
     }
     // Print grows on all sides alike, and the grid does not.
-    const std::int32_t growth = (growth_of(above) + growth_of(beside)) / 2;
+    const std::int32_t growth = (growth_of(beside) + growth_of(above)) / 2;
     first.line.at = first.line.at + first.inward.times(growth);
     second.line.at = second.line.at + second.inward.times(growth);
-    upper.at = upper.at - first.line.direction.times(growth);
-    right.at = right.at - second.line.direction.times(growth);
+    right.at = right.at - first.line.direction.times(growth);
+    upper.at = upper.at - second.line.direction.times(growth);
     if (!settle(first, second)) return Status::not_found;
-    const Result<EdgePlace> a = crossing(upper, first.line);
-    const Result<EdgePlace> b = crossing(right, second.line);
-    const Result<EdgePlace> d = crossing(upper, right);
+    const Result<EdgePlace> a = crossing(right, first.line);
+    const Result<EdgePlace> b = crossing(upper, second.line);
+    const Result<EdgePlace> d = crossing(right, upper);
     if (!a || !b || !d) return Status::not_found;
     frame.corner = first.line.at;
-    frame.upper = *a;
-    frame.right = *b;
+    frame.right = *a;
+    frame.upper = *b;
     frame.opposite = *d;
     frame.columns = above.modules();
     frame.rows = beside.modules();
-    frame.bad = above.bad + beside.bad;
-    frame.pitch = module_;
     return frame;
 }
 

@@ -15,8 +15,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 /// Grades of a symbol from the brightness of its modules, 0 to 255, and of the ring of a module around it.
 ///
 /// Source  ISO/IEC 15415, 7.8, tables 3 to 6. Modulation by modules, of which a twentieth may be worse, in
@@ -24,8 +22,6 @@ namespace fovea::detail {
 inline CodeGrade grade_data_matrix(const CodeField& field, const SquareToQuad& map,
                                    const DataMatrixSize& size, Span<const std::uint8_t> values,
                                    int unused_correction);
-
-// ---- Implementation ---------------------------------------------------------------
 
 constexpr std::int8_t step_grade(int value, int a, int b, int c, int d) {
     return static_cast<std::int8_t>(value >= a ? 4 : value >= b ? 3 : value >= c ? 2 : value >= d ? 1 : 0);

@@ -15,8 +15,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 /// The unit square, x right and y down, onto a quadrilateral.
 ///
 /// Source  Heckbert, Fundamentals of Texture Mapping, 1989
@@ -55,8 +53,6 @@ inline constexpr int module_rules = 3;
 
 inline void classify_modules(Span<const std::uint8_t> values, const DataMatrixSize& size, ModuleRule rule,
                              Span<std::uint8_t> scratch, BitView<BitWord> modules);
-
-// ---- Implementation ---------------------------------------------------------------
 
 inline SquareToQuad::SquareToQuad(EdgePlace p0, EdgePlace p1, EdgePlace p2, EdgePlace p3) : origin_(p0) {
     const EdgePlace d1 = p1 - p2;

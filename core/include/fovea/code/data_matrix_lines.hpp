@@ -11,8 +11,6 @@
 
 namespace fovea::detail {
 
-// ---- Interface --------------------------------------------------------------------
-
 /// A place or a way in 1/256 px. Images reach 2^23, ways between their places 2^24.
 struct EdgePlace {
     std::int32_t x = 0;
@@ -55,8 +53,6 @@ constexpr Result<EdgePlace> crossing(const EdgeLine& a, const EdgeLine& b);
 /// The line through places told by their way along a line (x) and aside of it (y); twice, the second time
 /// without those that lie farther off than the others. False for fewer than three places, or all alike.
 inline bool fit_edge(Span<const EdgePlace> offsets, const EdgeLine& about, Direction aside, EdgeLine& line);
-
-// ---- Implementation ---------------------------------------------------------------
 
 constexpr Result<EdgePlace> crossing(const EdgeLine& a, const EdgeLine& b) {
     const std::int64_t turn =

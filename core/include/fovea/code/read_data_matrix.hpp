@@ -46,7 +46,7 @@ constexpr std::int64_t read_data_matrix_scratch(Size size) {
     return half.area() + half.area() / 4 + arena_bytes<BitWord>(detail::PassedSides::words(size)) +
            arena_bytes<detail::BorderCorner>(data_matrix_corners) +
            arena_bytes<std::int16_t>(detail::dash_samples) + arena_bytes<detail::DashedLine>(3) +
-           2 * max_data_matrix_side * max_data_matrix_side +
+           2 * minimum<std::int64_t>(max_data_matrix_side * max_data_matrix_side, size.area()) +
            arena_bytes<BitWord>(std::int64_t{max_data_matrix_side} * bit_words(max_data_matrix_side)) +
            data_matrix_decode_scratch;
 }
@@ -86,8 +86,9 @@ public:
           corners_(arena_.take<BorderCorner>(data_matrix_corners)),
           samples_(arena_.take_unset<std::int16_t>(dash_samples)),
           dashed_(arena_.take<DashedLine>(3)),
-          values_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
-          sharpened_(arena_.take_unset<std::uint8_t>(max_data_matrix_side * max_data_matrix_side)),
+          values_(arena_.take_unset<std::uint8_t>(
+              minimum<std::int64_t>(max_data_matrix_side * max_data_matrix_side, image.size().area()))),
+          sharpened_(arena_.take_unset<std::uint8_t>(values_.size())),
           words_(arena_.take_unset<BitWord>(std::int64_t{max_data_matrix_side} *
                                             bit_words(max_data_matrix_side))) {}
 
@@ -139,7 +140,7 @@ private:
         field_ = CodeField(image_, inverted);
         passed_.clear();
         const int height = image_.height();
-        const int step = clamp(height / 64, 3, 7);
+        const int step = clamp(height / 56, 3, 9);
         // First the middle, then halves and quarters, then all.
         for (int parts = 2; parts <= 8 && height / parts >= 2 * step; parts *= 2) {
             for (int i = 1; i < parts; i += 2) {
@@ -227,14 +228,25 @@ private:
         sort(found, [](const BorderCorner& a, const BorderCorner& b) { return a.weight > b.weight; });
         for (const BorderCorner& corner : found) {
             if (done()) break;
-            if (known(corner.in.last)) continue;
+            if (known(corner.in.last) || often_tried(corner)) continue;
             try_corner(corner);
         }
         count_ = 0;
     }
+    /// Whether the same corner failed at heavier pieces, from other thresholds, often enough.
+    bool often_tried(const BorderCorner& corner) const {
+        constexpr int most = 4;
+        int tried = 0;
+        for (const BorderCorner* other = corners_.begin(); other != &corner; ++other) {
+            const int x = other->in.last.x - corner.in.last.x;
+            const int y = other->in.last.y - corner.in.last.y;
+            tried += x >= -3 && x <= 3 && y >= -3 && y <= 3 ? 1 : 0;
+        }
+        return tried >= most;
+    }
     void try_corner(const BorderCorner& corner) {
         const FrameScratch scratch{{samples_, dashed_[0]}, dashed_[1], dashed_[2]};
-        FrameFinder finder(field_, corner, {}, scratch);
+        FrameFinder finder(field_, corner, scratch);
         if (finder.find_arms(corner) != Status::ok) return;
         // Blur and dark neighbours make solid lines thicker than a module.
         constexpr int shares[] = {256, 166};
@@ -253,7 +265,8 @@ private:
             size = data_matrix_size(frame.columns, frame.rows);
             mirrored = size != nullptr;
         }
-        if (size == nullptr) return false;
+        // Modules of less than a pixel have no room, and say nothing.
+        if (size == nullptr || size->rows * size->columns > values_.size()) return false;
         if (mirrored) {
             const EdgePlace upper = frame.upper;
             frame.upper = frame.right;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <fovea/code/data_matrix_clarity.hpp>
+#include <support/data_matrix_scene.hpp>
+
+namespace fovea::test {
+namespace {
+
+TEST(DataMatrixClarity, BringsAMovedCornerBack) {
+    DataMatrixScene scene;
+    DrawnImage image = draw(scene);
+    const auto frame = frame_of(image.view());
+    ASSERT_TRUE(frame.ok());
+    const detail::CodeField field(image.view(), false);
+    const DataMatrixSize& size = *data_matrix_size(16, 16);
+    detail::DataMatrixFrame moved = *frame;
+    moved.opposite.x += 700;
+    moved.opposite.y -= 500;
+    EXPECT_TRUE(detail::make_clearer(field, size, moved));
+    EXPECT_LT(magnitude(moved.opposite.x - frame->opposite.x), 512U);
+    EXPECT_LT(magnitude(moved.opposite.y - frame->opposite.y), 512U);
+    EXPECT_NEAR(detail::module_of(*frame, size), 1024, 8);
+}
+
+}  // namespace
+}  // namespace fovea::test
