@@ -14,8 +14,8 @@
 #include <golden/base_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
 #include <golden/code_blur_vectors.hpp>
-#include <golden/code_qr_vectors.hpp>
 #include <golden/code_data_matrix_vectors.hpp>
+#include <golden/code_qr_vectors.hpp>
 #include <golden/codec_vectors.hpp>
 #include <golden/colour_vectors.hpp>
 #include <golden/decision_vectors.hpp>

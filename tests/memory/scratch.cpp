@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <fovea/catalogue/catalogue.hpp>
-#include <fovea/code/read_qr.hpp>
 #include <fovea/code/bar_stream.hpp>
 #include <fovea/code/read_bars.hpp>
 #include <fovea/code/read_data_matrix.hpp>
+#include <fovea/code/read_qr.hpp>
 #include <fovea/codec/jpeg.hpp>
 #include <fovea/codec/png_reader.hpp>
 #include <fovea/codec/png_writer.hpp>

@@ -65,7 +65,7 @@ inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, Dat
     int best = clarity(field, frame, size);
     const int begin = best;
     EdgePlace* const corners[4] = {&frame.opposite, &frame.upper, &frame.right, &frame.corner};
-    for (std::int32_t move = module / 2; move >= maximum(module / 8, 24); move /= 2) {
+    for (std::int32_t move = module / 2; move >= maximum<std::int32_t>(module / 8, 24); move /= 2) {
         const EdgePlace ways[4] = {{move, 0}, {-move, 0}, {0, move}, {0, -move}};
         for (int round = 0; round < 2; ++round) {
             const int before = best;

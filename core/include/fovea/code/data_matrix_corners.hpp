@@ -252,7 +252,7 @@ inline void CornerFinder::pair(const BorderPiece& in, const BorderPiece& out) {
     };
     for (BorderCorner& other : corners_) {
         if (!near(other.in.last, in.last) || !near(other.out.first, out.first) ||
-            magnitude(other.threshold - threshold_) > 12)
+            magnitude(std::int64_t{other.threshold} - threshold_) > 12)
             continue;
         if (corner.weight > other.weight) other = corner;
         return;

@@ -97,7 +97,8 @@ inline void DashFinder::follow_dashes(EdgePlace start, Direction way, std::int32
     const std::int32_t longest = minimum(beside + beside / 2, largest_);
     const Span<std::int16_t> samples = scratch_.samples;
     const std::int32_t step =
-        maximum(maximum(module_ / 4, 64), longest / (static_cast<std::int32_t>(samples.size()) - 1) + 1);
+        maximum<std::int32_t>(maximum<std::int32_t>(module_ / 4, 64),
+                              longest / (static_cast<std::int32_t>(samples.size()) - 1) + 1);
     const std::int32_t begin = module_ / 2;
     dashed.changes = 0;
     dashed.bad = 0;
@@ -112,7 +113,7 @@ inline void DashFinder::follow_dashes(EdgePlace start, Direction way, std::int32
         while (i < to && (samples[i] >= middle) != up) ++i;
         const int a = samples[i - 1];
         const int b = samples[i];
-        const std::int32_t back = a == b ? 0 : clamp(step * (b - middle) / (b - a), 0, step);
+        const std::int32_t back = a == b ? 0 : clamp<std::int32_t>(step * (b - middle) / (b - a), 0, step);
         const std::int32_t at = begin + step * i - back;
         dashed.at[dashed.changes++] = at;
         const int n = dashed.changes;
@@ -252,7 +253,7 @@ inline EdgeLine DashFinder::edge_of(const EdgeLine& centre, Direction outward,
                                     const DashedLine& dashed) const {
     EdgePlace offsets[max_data_matrix_side / 2];
     int count = 0;
-    const std::int32_t step = maximum(module_ / 8, 48);
+    const std::int32_t step = maximum<std::int32_t>(module_ / 8, 48);
     for (int i = 0; i < dashed.dashes() && count < max_data_matrix_side / 2; ++i) {
         const std::int32_t along = i == 0 ? dashed.at[0] / 2 : (dashed.at[2 * i - 1] + dashed.at[2 * i]) / 2;
         const EdgePlace middle = centre.at + centre.direction.times(along);

@@ -81,7 +81,7 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
     EdgePlace offsets[probes];
     int count = 0;
     const std::int32_t margin = (to - from) / 16;
-    const int places = clamp((to - from) >> 9, 6, most_places);
+    const int places = static_cast<int>(clamp<std::int32_t>((to - from) >> 9, 6, most_places));
     for (int i = 0; i < places; ++i) {
         const std::int32_t along =
             from + margin +
@@ -113,8 +113,8 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
 /// half of the time.
 inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const {
     std::int32_t runs[probes];
-    const std::int32_t most = maximum((to - from) / 4, 512);
-    const std::int32_t step = clamp(most / 32, 64, 512);
+    const std::int32_t most = maximum<std::int32_t>((to - from) / 4, 512);
+    const std::int32_t step = clamp<std::int32_t>(most / 32, 64, 512);
     for (int i = 0; i < probes; ++i) {
         const std::int32_t along =
             from + static_cast<std::int32_t>(std::int64_t{to - from} * (2 * i + 1) / (2 * probes));
@@ -140,10 +140,11 @@ inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t fr
 /// How far a solid line goes from the corner.
 inline std::int32_t FrameFinder::walk(const SolidLine& arm) const {
     const std::int32_t depth = module_ / 2;
-    const std::int32_t step = maximum(module_ / 8, 64);
-    const std::int32_t gap = maximum(static_cast<std::int32_t>(std::int64_t{module_} * gap_share >> 8), 256);
+    const std::int32_t step = maximum<std::int32_t>(module_ / 8, 64);
+    const std::int32_t gap =
+        maximum<std::int32_t>(static_cast<std::int32_t>(std::int64_t{module_} * gap_share >> 8), 256);
     const EdgePlace start = arm.line.at + arm.inward.times(depth);
-    const EdgePlace outside = arm.line.at - arm.inward.times(maximum(depth, 320));
+    const EdgePlace outside = arm.line.at - arm.inward.times(maximum<std::int32_t>(depth, 320));
     // Levels on both sides of the edge, which follow the light along it.
     int dark = value(start + arm.line.direction.times(module_));
     int light = value(outside + arm.line.direction.times(module_));
@@ -220,7 +221,7 @@ inline Status FrameFinder::find_arms(const BorderCorner& corner) {
     // The thinner of the two: beside one of them the data may be dark by chance.
     const std::int32_t thick_first = thickness(first, 0, way_to(first, corner.in.first));
     const std::int32_t thick_second = thickness(second, 0, way_to(second, corner.out.last));
-    module_ = maximum(minimum(thick_first, thick_second), 200);
+    module_ = maximum<std::int32_t>(minimum(thick_first, thick_second), 200);
     for (int round = 0; round < 2; ++round) {
         first.length = walk(first);
         second.length = walk(second);
@@ -248,7 +249,7 @@ inline Status FrameFinder::find_arms(const BorderCorner& corner) {
         for (int i = 1; i < 8; ++i) {
             const EdgePlace edge = arm->line.at + arm->line.direction.times(arm->length / 8 * i);
             dark += value(edge + arm->inward.times(module_ / 2));
-            light += value(edge - arm->inward.times(maximum(module_ / 2, 384)));
+            light += value(edge - arm->inward.times(maximum<std::int32_t>(module_ / 2, 384)));
         }
     }
     if (light <= dark) return Status::not_found;
@@ -260,7 +261,7 @@ inline Status FrameFinder::find_arms(const BorderCorner& corner) {
 inline Result<DataMatrixFrame> FrameFinder::find(int share) {
     SolidLine first = first_;
     SolidLine second = second_;
-    module_ = maximum(static_cast<std::int32_t>(std::int64_t{thickness_} * share >> 8), 200);
+    module_ = maximum<std::int32_t>(static_cast<std::int32_t>(std::int64_t{thickness_} * share >> 8), 200);
     DataMatrixFrame frame;
     DashedLine& beside = scratch_.beside;
     DashedLine& above = scratch_.above;
