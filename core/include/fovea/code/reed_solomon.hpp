@@ -240,7 +240,7 @@ constexpr Status ReedSolomon<Polynomial, FirstRoot>::encode(Span<const std::uint
                                                             Span<std::uint8_t> parity) {
     using Field = detail::Galois<Polynomial>;
     const int count = static_cast<int>(parity.size() <= max_reed_solomon_parity ? parity.size() : 0);
-    if (count == 0 || data.size() > max_reed_solomon_block - count) return Status::bad_argument;
+    if (count < 1 || data.size() > max_reed_solomon_block - count) return Status::bad_argument;
     detail::GaloisPolynomial generator;
     generator.terms[0] = 1;
     for (int j = 0; j < count; ++j) {
@@ -250,7 +250,7 @@ constexpr Status ReedSolomon<Polynomial, FirstRoot>::encode(Span<const std::uint
                                                            Field::multiply(root, generator.terms[i]));
         }
     }
-    for (std::uint8_t& codeword : parity) codeword = 0;
+    for (int i = 0; i < count; ++i) parity[i] = 0;
     for (const std::uint8_t codeword : data) {
         const auto lead = static_cast<std::uint8_t>(codeword ^ parity[0]);
         for (int i = 0; i < count; ++i) {
