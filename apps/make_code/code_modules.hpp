@@ -37,6 +37,11 @@ struct CodeModules {
     std::vector<std::uint8_t> dark;
     int quiet = 0;
     bool bars = false;
+
+    bool is_dark(int x, int y) const {
+        const auto width = static_cast<std::size_t>(size.width);
+        return dark[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] != 0;
+    }
 };
 
 /// The quiet zone that the standard of a symbology asks for on both sides, the larger where they differ.

@@ -124,10 +124,7 @@ inline Picture<Gray8> picture_of(const CodeModules& modules, int bar_height, int
             const int row = y / module - modules.quiet;
             const bool inside = column >= 0 && column < modules.size.width && row >= 0 && row < rows;
             const int line = modules.bars ? 0 : row;
-            picture.view()(x, y) =
-                inside && modules.dark[static_cast<std::size_t>(line * modules.size.width + column)] != 0
-                    ? dark
-                    : light;
+            picture.view()(x, y) = inside && modules.is_dark(column, line) ? dark : light;
         }
     return picture;
 }
@@ -143,11 +140,8 @@ inline std::string svg_of(const CodeModules& modules, int bar_height, bool inver
                        (inverted ? "#fff" : "#000") + "\" d=\"";
     for (int y = 0; y < modules.size.height; ++y)
         for (int x = 0; x < modules.size.width;) {
-            const auto is_dark = [&](int at) {
-                return modules.dark[static_cast<std::size_t>(y * modules.size.width + at)] != 0;
-            };
             int end = x;
-            while (end < modules.size.width && is_dark(end)) ++end;
+            while (end < modules.size.width && modules.is_dark(end, y)) ++end;
             if (end > x) {
                 const std::string run = std::to_string(end - x);
                 text += "M" + std::to_string(x + modules.quiet) + " " + std::to_string(y + modules.quiet) +

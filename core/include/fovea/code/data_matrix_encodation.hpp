@@ -30,7 +30,7 @@ constexpr std::int64_t data_matrix_encodation_scratch(std::int64_t text_bytes) {
 class DataMatrixEncodation {
 public:
     /// Weighs. gs1: byte 29 becomes FNC1. The scratch must be there: it was checked.
-    DataMatrixEncodation(Span<const std::uint8_t> text, bool gs1, Span<std::uint8_t> scratch);
+    DataMatrixEncodation(Span<const std::uint8_t> bytes, bool gs1, Span<std::uint8_t> scratch);
 
     /// The codewords for a symbol that has room for as many as codewords, padded to its end, behind the first
     /// `head` ones, which are there already; buffer_too_small if they are too few.
@@ -207,7 +207,7 @@ public:
             triple_value(30);
         }
         const int low = byte & 127;
-        const int first = text ? 'a' : 'A';
+        const int first = text ? int{'a'} : int{'A'};
         if (low == ' ') return triple_value(3);
         if (low >= '0' && low <= '9') return triple_value(low - '0' + 4);
         if (low >= first && low < first + 26) return triple_value(low - first + 14);

@@ -68,8 +68,8 @@ inline CodeGrade grade_data_matrix(const CodeField& field, const SquareToQuad& m
     for (int i = 0; i < count; ++i) {
         const int way =
             200 * (values[i] > threshold ? values[i] - threshold : threshold - values[i]) / contrast;
-        const int of = step_grade(way, 50, 40, 30, 20);
-        for (int k = of; k < 4; ++k) ++worse[k];
+        const int modulated = int{step_grade(way, 50, 40, 30, 20)};
+        for (int k = modulated; k < 4; ++k) ++worse[k];
     }
     int modulation = 4;
     while (modulation > 0 && worse[modulation - 1] * 20 > count) --modulation;

@@ -82,11 +82,9 @@ public:
         if (version >= 2 && planes_ > 0) {
             const PlanePoint place = module_centre(size - 7, size - 7);
             PlanePoint found;
-            if (find_alignment(plane_[0], place, plane_[0](place), 4, found)) {
-                add_plane(size, place, found);
-            } else if (planes_ > 1 && find_alignment(plane_[1], place, plane_[1](place), 4, found)) {
-                add_plane(size, place, found);
-            }
+            const bool seen = find_alignment(plane_[0], place, plane_[0](place), 4, found) ||
+                              (planes_ > 1 && find_alignment(plane_[1], place, plane_[1](place), 4, found));
+            if (seen) add_plane(size, place, found);
         }
         for (int i = 0; i < planes_; ++i) fit_[i] = fit(plane_[i], size);
         for (int i = 1; i < planes_; ++i) {
