@@ -43,7 +43,10 @@ inline void cost_letters(const BlurPlan& plan, const BlurLetters& letters, const
 /// there.
 constexpr std::int32_t pair_cost(const BlurPlan& plan, const BlurLetters& letters, int place, int left,
                                  int right) {
-    if (place + 1 == plan.left) return letters.across[left][right];
+    if (place + 1 == plan.left) {
+        FOVEA_ASSERT(right < 10);
+        return letters.across[left][right % 10];
+    }
     const int alphabet = plan.alphabet(place);
     return letters.beside[alphabet + left][alphabet + right];
 }
@@ -178,9 +181,8 @@ private:
     static constexpr int weight(int place) { return place % 2 == 0 ? 3 : 1; }
     /// A digit as an index into the alphabet of its place.
     int letter(int place, int digit) const {
-        const bool of_b = plan_.has_parity && place < plan_.left &&
-                          (set_b_places[first_digit_] >> (plan_.left - 1 - place) & 1) != 0;
-        return of_b ? 10 + digit : digit;
+        if (place >= plan_.left || !plan_.has_parity) return digit;
+        return (set_b_places[first_digit_] >> (plan_.left - 1 - place) & 1) != 0 ? 10 + digit : digit;
     }
     std::int32_t own(int place, int digit) const { return costs_.of[place][letter(place, digit)]; }
     std::int32_t pair(int place, int left, int right) const {
