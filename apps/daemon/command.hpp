@@ -9,11 +9,12 @@
 //     JOBS?             the jobs there are: OK 1 cap, 2 plate
 //     JOB?              the job in use: OK 2 plate
 //     JOB 2, JOB plate  takes another job between two frames
-//     STAT?             OK triggers 9 ok 7 ng 1 error 0 missed 1 us 5210 6020 7404
+//     STAT?             OK triggers 9 ok 7 ng 1 error 0 missed 1 us 5210 6020 7404: the shortest, mean and
+//                       longest time from trigger to answer
 //     STAT RESET        counts from 0
 //     LAST?             the last result again
 //     RDY?              OK 1 if a trigger would be answered, OK 0 if not
-//     TEACH name        keeps the next frame as a sample of that name
+//     TEACH name        keeps the next frame as a sample of that name, in the folder of [teach]
 //     VER?              OK fovead 0.1.0
 //
 // Replies are "OK ..." or "ERR number reason". A silent device replies to what asks (?), and to errors.
@@ -54,6 +55,7 @@ enum class CommandError : std::uint8_t {
     not_ready = 30,    ///< the camera is not in order, or there is no job
     busy = 31,         ///< another trigger is being answered
     nothing_yet = 40,  ///< no result yet
+    keeps_none = 41,   ///< there is no folder for samples
     failed = 50,       ///< it was tried
 };
 
@@ -68,6 +70,7 @@ constexpr const char* describe(CommandError error) {
         case CommandError::not_ready: return "not ready";
         case CommandError::busy: return "busy";
         case CommandError::nothing_yet: return "no result yet";
+        case CommandError::keeps_none: return "[teach] has no folder";
         case CommandError::failed: return "failed";
     }
     return "";

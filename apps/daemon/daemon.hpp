@@ -18,6 +18,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/hal/frame_source.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/linux/fault.hpp>
 
 #include <daemon/camera_keeper.hpp>
 #include <daemon/command.hpp>
@@ -60,7 +61,7 @@ struct TriggerEdge {
 ///   void print(Span<const char>)  a line of JSON, without its end
 ///   void keep_failure(ImageView<const Gray8>, const Inspection&)
 ///   bool take_failure_event(FailureRingEvent&)
-///   Status keep_sample(Span<const char> name, ImageView<const Gray8>)
+///   Status keep_sample(Span<const char> name, ImageView<const Gray8>, Fault&)
 ///   workers()                     who work on a picture, see OneWorker
 ///   Span<std::uint8_t> scratch()  for judge_scratch() of every job and so many workers
 ///   const JobList& jobs()
@@ -199,7 +200,9 @@ void Daemon<World>::obey(const SerialCommand& command) {
                 break;
             case CommandVerb::ask_ready: text.text(ready() && !waiting_ ? " 1" : " 0"); break;
             case CommandVerb::teach:
-                if (ready())
+                if (!options_.samples)
+                    error = CommandError::keeps_none;
+                else if (ready())
                     teach_ = Text<longest_job_name>().add(command.name);
                 else
                     error = CommandError::not_ready;
@@ -281,8 +284,9 @@ void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
         return;
     }
     if (!teach_.empty()) {
-        const Status kept = world_.keep_sample({teach_.c_str(), teach_.size()}, picture);
-        events_.tell_sample({teach_.c_str(), teach_.size()}, kept);
+        linux_port::Fault fault;
+        const Status kept = world_.keep_sample({teach_.c_str(), teach_.size()}, picture, fault);
+        events_.tell_sample({teach_.c_str(), teach_.size()}, kept, fault);
         teach_.clear();
         if (options_.source != TriggerSource::free && !waiting_) return;
     }

@@ -91,8 +91,14 @@ public:
         line_.text(",\"trigger_us\":").number(trigger_us);
         end();
     }
-    void tell_sample(Span<const char> name, Status kept) {
+    void tell_sample(Span<const char> name, Status kept, const linux_port::Fault& fault) {
         begin(kept == Status::ok ? "sample" : "sample_lost").text(",\"name\":").json(name);
+        if (kept != Status::ok) {
+            const char* const reason = fault.error != 0 ? linux_port::reason(fault) : describe(kept);
+            line_.text(",\"reason\":").json(letters_of(reason));
+        }
+        const char* const advice = kept != Status::ok ? linux_port::advice(fault) : "";
+        if (advice[0] != '\0') line_.text(",\"try\":").json(letters_of(advice));
         end();
     }
     void tell_job(Span<const char> name) {

@@ -21,6 +21,8 @@ struct DaemonOptions {
     bool json = true;
     bool silent = false;
     bool commands = true;
+    /// There is a folder for what TEACH keeps.
+    bool samples = false;
     bool serial_results = false;
     bool serial_json = false;
     ResultTemplate serial_template;
@@ -35,6 +37,7 @@ inline DaemonOptions daemon_options(const Settings& settings, const char* versio
     options.json = settings.results.json;
     options.silent = settings.serial.silent;
     options.commands = settings.serial.commands;
+    options.samples = !settings.teach.folder.empty();
     options.version = version;
     const std::string results = settings.serial.results.c_str();
     options.serial_json = results == "json";

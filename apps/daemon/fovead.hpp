@@ -254,7 +254,8 @@ int fovead(const std::vector<std::string>& words, Io& io, System system,
         return files.no_file_left ? daemon_no_memory : daemon_config;
     }
     if (check) {
-        io.print(config + ": good, " + std::to_string(files.jobs.size()) + " jobs\n");
+        io.print(config + ": good, " + std::to_string(files.jobs.size()) +
+                 (files.jobs.size() == 1 ? " job\n" : " jobs\n"));
         return daemon_ok;
     }
     if (make_safe) {

@@ -158,7 +158,7 @@ public:
         if (!text.full()) static_cast<void>(failures_.offer(picture, text.letters()));
     }
     bool take_failure_event(FailureRingEvent& event) { return failures_.take_event(event); }
-    Status keep_sample(Span<const char> name, ImageView<const Gray8> picture);
+    Status keep_sample(Span<const char> name, ImageView<const Gray8> picture, linux_port::Fault& fault);
     Span<std::uint8_t> scratch() { return span(judge_memory_); }
     linux_port::WorkerPool::Workers workers() { return pool_.workers(); }
     const JobList& jobs() const { return jobs_; }
@@ -268,7 +268,7 @@ template <class TheOpening>
 std::string LinuxWorld<TheOpening>::open_lines() {
     const Settings::Lines& names = settings_.lines;
     const bool triggered = settings_.trigger.source == TriggerSource::line;
-    if (names.chip.empty()) return triggered ? "[trigger] source = \"line\" wants a chip in [lines]" : "";
+    if (names.chip.empty()) return "";
     linux_port::GpioChip<System> chip(system_);
     const auto complain = [&](const char* role, const char* line, const linux_port::Fault& fault) {
         const char* const advice = linux_port::advice(fault);
@@ -297,7 +297,6 @@ std::string LinuxWorld<TheOpening>::open_lines() {
         linux_port::InputLineOptions input;
         input.active = active;
         input.debounce_us = static_cast<std::uint32_t>(settings_.trigger.debounce_us);
-        if (settings_.trigger.line.empty()) return "[trigger] source = \"line\" wants its line";
         if (trigger_.open(chip, settings_.trigger.line.c_str(), "trigger", input) != Status::ok)
             return complain("trigger", settings_.trigger.line.c_str(), trigger_.fault());
     }
@@ -364,17 +363,18 @@ std::string LinuxWorld<TheOpening>::begin_failures() {
 }
 
 template <class TheOpening>
-Status LinuxWorld<TheOpening>::keep_sample(Span<const char> name, ImageView<const Gray8> picture) {
+Status LinuxWorld<TheOpening>::keep_sample(Span<const char> name, ImageView<const Gray8> picture,
+                                           linux_port::Fault& fault) {
     if (settings_.teach.folder.empty()) return Status::unsupported;
     const Result<std::ptrdiff_t> bytes = encode_pnm(picture, span(sample_memory_));
     if (!bytes) return bytes.status();
     linux_port::Text<400> path(settings_.teach.folder.c_str());
     path.add("/").add(name).add("-");
     linux_port::Text<400> beside = path;
-    // The time of the system tells samples of different days apart.
     path.add_number(static_cast<std::uint64_t>(now_us())).add(".pgm");
     beside.add("new");
-    linux_port::Fault fault;
+    // One that is there, or cannot be made, shows when the file is written.
+    static_cast<void>(system_.make_folder(settings_.teach.folder.c_str(), 0755));
     return linux_port::replace_file(system_, settings_.teach.folder.c_str(), beside.c_str(), path.c_str(), {},
                                     {sample_memory_.data(), *bytes}, fault);
 }

@@ -9,9 +9,9 @@
 //     \xNN \r \n \t     bytes; \\ \{ \} themselves
 //
 // Fields: seq, verdict (OK NG ERROR), pass (P F E), why, job, job.number, parts, frame, age_us, took_us,
-// triggers, ok, ng, error, missed; f.NAME the value of a feature, f.NAME.milli its whole thousandths,
-// f.NAME.verdict (ok low high unmeasured). A number that is wider than its width becomes asterisks, so that
-// fields that follow stay in their places.
+// triggers, ok, ng, error, missed; f.NAME the value of a feature, which is a word here, f.NAME.milli its
+// thousandths, a whole number, f.NAME.verdict (ok low high unmeasured). A number that is wider than its width
+// becomes asterisks, so that fields that follow stay in their places; what has no value, question marks.
 #pragma once
 
 #include <cstddef>

@@ -230,7 +230,8 @@ inline Span<const SettingKey> setting_keys() {
          number_at<&S::camera, &S::Camera::format>, 0, 0,
          "any|gray8|gray10|gray12|gray16|yuyv|uyvy|nv12|rgb24|bgr24|rgb565|bayer-rggb|bayer-grbg|bayer-gbrg|"
          "bayer-bggr|mjpeg"},
-        {"camera", "rate_per_s", integer, "10", "frames a second that are wanted at least", anew,
+        {"camera", "rate_per_s", integer, "10",
+         "frames a second: the camera is set to so many, in a mode that can do them", anew,
          number_at<&S::camera, &S::Camera::rate_per_s>, 1, 10000},
         {"camera", "buffers", integer, "4", "frames that the driver holds", anew,
          number_at<&S::camera, &S::Camera::buffers>, 2, 16},
@@ -278,7 +279,8 @@ inline Span<const SettingKey> setting_keys() {
          number_at<&S::lines, &S::Lines::error_is_not_ok>},
 
         {"serial", "device", text, "\"\"",
-         "the serial port: \"/dev/ttyUSB0\", \"usb:0403:6001\" with \":serial\" behind it; \"\" for none",
+         "the serial port: \"/dev/ttyUSB0\", \"usb:0403:6001\" with \":serial\" behind it, or "
+         "\"path:...\"; \"\" for none",
          anew, text_at<&S::serial, &S::Serial::device>, 0, 191},
         {"serial", "baud", integer, "115200", "bits a second", anew, number_at<&S::serial, &S::Serial::baud>,
          50, 4000000},
@@ -286,10 +288,12 @@ inline Span<const SettingKey> setting_keys() {
          number_at<&S::serial, &S::Serial::rs485>},
         {"serial", "commands", boolean, "true", "obey commands that arrive", live,
          number_at<&S::serial, &S::Serial::commands>},
-        {"serial", "silent", boolean, "false", "reply only to commands that ask", live,
+        {"serial", "silent", boolean, "false",
+         "reply only to commands that ask, and with errors: so that an OK is a verdict", live,
          number_at<&S::serial, &S::Serial::silent>},
         {"serial", "results", text, "\"plain\"",
-         "what a result is sent as: plain, pass-fail, stx-etx, csv, json, a template, or \"\" for nothing",
+         "what a result is sent as: plain, pass-fail, stx-etx, csv, json, a template such as "
+         "\"{seq:6};{verdict}\\\\r\\\\n\", or \"\" for nothing",
          live, text_at<&S::serial, &S::Serial::results>, 0, 256},
 
         {"jobs", "folder", text, "\"jobs\"",
@@ -299,14 +303,15 @@ inline Span<const SettingKey> setting_keys() {
          text_at<&S::jobs, &S::Jobs::start>, 0, 63},
 
         {"teach", "folder", text, "\"\"",
-         "folder for the samples that the command TEACH keeps; \"\" to keep none", live,
-         text_at<&S::teach, &S::Teach::folder>, 0, 191},
+         "folder for the samples that the command TEACH keeps, as /var/lib/fovead/samples; \"\" to keep none",
+         live, text_at<&S::teach, &S::Teach::folder>, 0, 191},
 
         {"results", "json", boolean, "true", "print every result as a line of JSON", live,
          number_at<&S::results, &S::Results::json>},
 
-        {"failures", "folder", text, "\"\"", "folder for pictures of what was not OK; \"\" to keep none",
-         anew, text_at<&S::failures, &S::Failures::folder>, 0, 191},
+        {"failures", "folder", text, "\"\"",
+         "folder for pictures of what was not OK, as /var/lib/fovead/failures; \"\" to keep none", anew,
+         text_at<&S::failures, &S::Failures::folder>, 0, 191},
         {"failures", "megabytes", integer, "100", "how much they may take up, in MB", anew,
          number_at<&S::failures, &S::Failures::megabytes>, 1, 1000000},
         {"failures", "pictures", integer, "1000", "how many are kept at most", anew,

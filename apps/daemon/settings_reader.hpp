@@ -55,16 +55,29 @@ public:
         check_control();
         if (!problem_.empty()) return {problem_, place_};
         if (!seen("", "format")) return {"the key format = 1 is missing", {1, 1}};
-        return {};
+        check_lines();
+        return {problem_, place_};
     }
 
 private:
+    struct Seen {
+        std::string table;
+        std::string key;
+        TextPlace place;
+    };
+
     void fail(const std::string& problem) { problem_ = problem; }
 
     bool seen(const std::string& table, const std::string& key) const {
-        for (const auto& each : seen_)
-            if (each.first == table && each.second == key) return true;
+        for (const Seen& each : seen_)
+            if (each.table == table && each.key == key) return true;
         return false;
+    }
+    /// Of a key that was seen.
+    void fail_at(const std::string& table, const std::string& key, const std::string& problem) {
+        for (const Seen& each : seen_)
+            if (each.table == table && each.key == key) place_ = each.place;
+        fail(problem);
     }
 
     static std::vector<std::string> tables() {
@@ -82,7 +95,7 @@ private:
             if (known == wanted) {
                 if (!array && seen(name, "")) return fail("[" + name + "] stands twice");
                 table_ = known;
-                seen_.push_back({name, ""});
+                seen_.push_back({name, "", place_});
                 if (!array) return;
                 if (settings_.controls.push({}) != Status::ok)
                     return fail("more than " + std::to_string(Settings::most_controls) + " of [[control]]");
@@ -99,9 +112,9 @@ private:
         fail("unknown table " + one_line(name) + hint(nearest_name(name, plain)));
     }
     void forget(const std::string& table) {
-        std::vector<std::pair<std::string, std::string>> kept;
-        for (const auto& each : seen_)
-            if (each.first != table) kept.push_back(each);
+        std::vector<Seen> kept;
+        for (const Seen& each : seen_)
+            if (each.table != table) kept.push_back(each);
         seen_ = kept;
     }
     /// A control has both of its keys.
@@ -109,6 +122,34 @@ private:
         if (table_ != "[[control]]" || !problem_.empty()) return;
         for (const char* key : {"name", "value"})
             if (!seen(table_, key)) return fail(std::string("a [[control]] without its ") + key);
+    }
+    /// What no key shows by itself: a trigger without its line, and a line for two things.
+    void check_lines() {
+        const Settings::Lines& lines = settings_.lines;
+        const bool triggered = settings_.trigger.source == TriggerSource::line;
+        if (triggered && lines.chip.empty())
+            return fail_at("trigger", "source", "source = \"line\" wants a chip in [lines]");
+        if (triggered && settings_.trigger.line.empty())
+            return fail_at("trigger", "source", "source = \"line\" wants a line = beside it");
+        if (lines.chip.empty()) return;
+        const struct {
+            const char* table;
+            const char* key;
+            const Text<63>& line;
+        } used[] = {{"lines", "ready", lines.ready},
+                    {"lines", "busy", lines.busy},
+                    {"lines", "valid", lines.valid},
+                    {"lines", "ok", lines.ok},
+                    {"lines", "ng", lines.not_ok},
+                    {"lines", "alarm", lines.alarm},
+                    {"trigger", "line", settings_.trigger.line}};
+        const int count = triggered ? 7 : 6;
+        for (int k = 0; k < count; ++k)
+            for (int other = 0; other < k; ++other)
+                if (!used[k].line.empty() && used[k].line == used[other].line)
+                    return fail_at(used[k].table, used[k].key,
+                                   std::string(k == 6 ? "the trigger" : used[k].key) + " has the line of " +
+                                       used[other].key);
     }
 
     void take_pair(const TomlItem& item) {
@@ -119,7 +160,7 @@ private:
             names.push_back(key.name);
             if (name != key.name) continue;
             if (seen(table_, name)) return fail(name + " stands twice");
-            seen_.push_back({table_, name});
+            seen_.push_back({table_, name, item.value.place});
             return take_value(key, item.value);
         }
         fail("unknown key " + one_line(name) + (table_.empty() ? "" : " in " + table_) +
@@ -151,7 +192,9 @@ private:
                     return fail(name + " is longer than " + std::to_string(key.high) + " bytes");
                 found.text = {letters, *length};
                 const std::string text(letters, static_cast<std::size_t>(*length));
-                if (!printable(text)) return fail(name + " has a control character, or is no UTF-8");
+                if (!printable(text))
+                    return fail(name + " has a control character, or is no UTF-8" +
+                                (name == "results" ? "; a line ends with \\\\r\\\\n here" : ""));
                 if (key.type == SettingType::text) {
                     if (*length < key.low) return fail(name + " is empty");
                     if (name == "results" && !check_template(text)) return;
@@ -173,14 +216,15 @@ private:
         if (text.empty() || text == "json" || result_preset(span_of(text)) != nullptr) return true;
         ResultTemplate made;
         if (made.read(span_of(text)) == Status::ok) return true;
-        fail(std::string("results: ") + made.problem() + ", at letter " + std::to_string(made.place()));
+        fail(std::string("results: ") + made.problem() + ", at letter " + std::to_string(made.place()) +
+             "; man fovead.conf has all");
         return false;
     }
 
     TomlReader reader_;
     Settings& settings_;
     std::string table_;
-    std::vector<std::pair<std::string, std::string>> seen_;
+    std::vector<Seen> seen_;
     std::string problem_;
     TextPlace place_;
 };
@@ -240,7 +284,9 @@ inline std::string settings_manual() {
                                   : ".SS " + (table[0] == '[' ? table : "[" + table + "]") + "\n";
         }
         const std::string values = detail::allowed(key);
-        text += std::string(".TP\n.B ") + key.name + "\n" + key.text;
+        text += std::string(".TP\n.B ") + key.name + "\n";
+        for (const char* letter = key.text; *letter != '\0'; ++letter)
+            text += *letter == '\\' ? "\\e" : std::string(1, *letter);
         if (!values.empty()) text += "; " + values;
         if (key.otherwise[0] != '\0') text += std::string("; ") + key.otherwise + " if left out";
         if (key.change == SettingChange::reopens) text += "; opens the devices anew";

@@ -132,6 +132,7 @@ def the_first_measurement_of_the_page_is_one():
         told = board.text("sudo systemctl status fovead")
         holds(told, "Active: active (running)")
         same(re.findall(r'Status: "(part: \d+ OK, \d+ NG, \d+ ERROR, 0 missed)"', told) != [], True)
+        a_sample_becomes_a_job(board)
         # systemd forgets what became of a service that nobody wants.
         board.must("sudo systemctl enable fovead 2> /dev/null")
 
@@ -142,6 +143,21 @@ def the_first_measurement_of_the_page_is_one():
         holds(board.text("sudo ls /var/lib/fovead"), ".pgm")
         nothing_failed(board.text("sudo -u fovead fovea doctor"))
         goes_and_is_purged(board)
+
+
+def a_sample_becomes_a_job(board):
+    """What TEACH keeps, in a folder that was not there, by the lines of the page."""
+    board.change("teach", folder='"/var/lib/fovead/samples"')
+    board.must("sudo systemctl reload fovead")
+    board.event("reload")
+    board.board.serial[0].sendall(b"TEACH cap\n")
+    sample = board.event("sample", "sample_lost")
+    same((sample["ev"], sample["name"], sample.get("reason")), ("sample", "cap", None))
+    page = (ROOT / "docs/daemon.md").read_text()
+    for line in re.search(r"```sh\n(sudo sh -c 'fovea teach.*?)```", page, re.S)[1].splitlines():
+        board.must(line)
+    board.event("reload")
+    same(board.must("fovead --check-config"), ["/etc/fovea/fovead.toml: good, 2 jobs"])
 
 
 def comes_on_the_serial_line(board, *verdicts):

@@ -94,7 +94,7 @@ def the_settings_that_it_brings_are_good_with_a_job():
     fovead = root / "usr/bin/fovead"
     holds(run(fovead, "--check-config", "--config", etc / "fovead.toml", status=78), "no job: `fovea teach`")
     (etc / "jobs/disc.toml").write_text(RECIPE)
-    same(run(fovead, "--check-config", "--config", etc / "fovead.toml"), f"{etc}/fovead.toml: good, 1 jobs\n")
+    same(run(fovead, "--check-config", "--config", etc / "fovead.toml"), f"{etc}/fovead.toml: good, 1 job\n")
     doctor = run(root / "usr/bin/fovea", "doctor", "--json", "--config", etc / "fovead.toml", status=None)
     checks = [json.loads(line) for line in doctor.splitlines()]
     same([(check["check"], check["result"]) for check in checks[:2]], [("settings", "ok"), ("jobs", "ok")])

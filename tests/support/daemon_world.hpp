@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <fovea/linux/fault.hpp>
 #include <fovea/linux/v4l2_camera.hpp>
 #include <fovea/simulated/byte_pipe.hpp>
 #include <fovea/simulated/memory_storage.hpp>
@@ -168,9 +169,10 @@ public:
         failure_events.pop_front();
         return true;
     }
-    Status keep_sample(Span<const char> name, ImageView<const Gray8>) {
-        samples.emplace_back(name.begin(), name.end());
-        return Status::ok;
+    Status keep_sample(Span<const char> name, ImageView<const Gray8>, linux_port::Fault& fault) {
+        fault = sample_fault;
+        if (fault.status == Status::ok) samples.emplace_back(name.begin(), name.end());
+        return fault.status;
     }
     OneWorker workers() { return {}; }
     Span<std::uint8_t> scratch() {
@@ -237,6 +239,7 @@ public:
     std::vector<std::uint64_t> failures;
     std::function<void(ImageView<const Gray8>)> on_failure;
     std::vector<std::string> samples;
+    linux_port::Fault sample_fault;
     simulated::MemoryStorage storage;
     apps::JobList job_list;
     std::string problem;

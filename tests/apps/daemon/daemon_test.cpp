@@ -25,6 +25,7 @@ DaemonOptions options(TriggerSource source) {
     made.source = source;
     made.serial_results = true;
     made.timeout_us = 600000;
+    made.samples = true;
     made.version = "0.1.0";
     EXPECT_EQ(made.serial_template.read(letters_of("{seq}{pass}\\n")), Status::ok);
     return made;
@@ -189,9 +190,29 @@ TEST(Daemon, ObeysItsCommands) {
     EXPECT_EQ(ask("TEACH cap"), "OK\r\n");
     run(world, bench.daemon, 100000);
     EXPECT_EQ(world.samples, Words({"cap"}));
+    world.sample_fault = {"open", EACCES, Status::io_error};
+    EXPECT_EQ(ask("TEACH cap"), "OK\r\n");
+    run(world, bench.daemon, 100000);
+    EXPECT_NE(
+        world.printed.back().find("\"name\":\"cap\",\"reason\":\"Permission denied\",\"try\":\"this user"),
+        std::string::npos)
+        << world.printed.back();
     world.device.unplugged = true;
     run(world, bench.daemon, 20000);
     EXPECT_EQ(ask("TEACH cap"), "ERR 30 not ready\r\n");
+}
+
+TEST(Daemon, KeepsNoSampleWithoutAFolder) {
+    DaemonWorld world;
+    DaemonOptions none = options(TriggerSource::command);
+    none.samples = false;
+    Daemon<DaemonWorld> daemon(world, none);
+    ASSERT_TRUE(daemon.take_job(1));
+    run(world, daemon, 100000);
+    world.say("TEACH cap\n");
+    run(world, daemon, 100000);
+    EXPECT_EQ(world.heard(), "ERR 41 [teach] has no folder\r\n");
+    EXPECT_EQ(world.samples, Words());
 }
 
 TEST(Daemon, IsSilentWhereItIsToldTo) {

@@ -31,7 +31,8 @@ TEST(Settings, TakeWhatIsSaid) {
     ASSERT_EQ(read_settings(
                   "format = 1\n[camera]\ndevice = \"usb:046d:0825\"\nwidth = 640\npixel_format = \"mjpeg\"\n"
                   "every_frame = true\n[[control]]\nname = \"gain\"\nvalue = -3\n[[control]]\nname = \"x\"\n"
-                  "value = 1\n[trigger]\nsource = \"line\"\n[lines]\nmode = \"pulse\"\nng = \"reject\"\n"
+                  "value = 1\n[trigger]\nsource = \"line\"\nline = \"4\"\n[lines]\nchip = \"a\"\nmode = "
+                  "\"pulse\"\nng = \"reject\"\n"
                   "[serial]\nresults = \"{seq:6};{verdict}\\\\r\\\\n\"\n",
                   settings)
                   .problem,
@@ -68,7 +69,9 @@ TEST(Settings, SayWhatIsWrongAndWhere) {
     EXPECT_EQ(problem_of("format = 1\n[[control]]\nname = \"gain\"\n"),
               "4:1: a [[control]] without its value");
     EXPECT_EQ(problem_of("format = 1\n[serial]\nresults = \"{verdikt}\"\n"),
-              "3:11: results: no such field, at letter 2");
+              "3:11: results: no such field, at letter 2; man fovead.conf has all");
+    EXPECT_EQ(problem_of("format = 1\n[serial]\nresults = \"{verdict}\\r\\n\"\n"),
+              "3:11: results has a control character, or is no UTF-8; a line ends with \\\\r\\\\n here");
     EXPECT_EQ(problem_of("format = 1\n[jobs]\nfolder = \"\"\n"), "3:10: folder is empty");
     EXPECT_EQ(problem_of("format = 1\n[jobs]\nstart = \"" + std::string(64, 'a') + "\"\n"),
               "3:9: start is longer than 63 bytes");
@@ -76,6 +79,20 @@ TEST(Settings, SayWhatIsWrongAndWhere) {
     std::string many = "format = 1\n";
     for (int k = 0; k < 33; ++k) many += "[[control]]\nname = \"a\"\nvalue = 1\n";
     EXPECT_EQ(problem_of(many), "98:3: more than 32 of [[control]]");
+}
+
+TEST(Settings, SayWhichLineIsMissingOrThereTwice) {
+    const std::string by_line = "format = 1\n[trigger]\nsource = \"line\"\n";
+    const std::string chip = "[lines]\nchip = \"a\"\n";
+    EXPECT_EQ(problem_of(by_line + "line = \"4\"\n"), "3:10: source = \"line\" wants a chip in [lines]");
+    EXPECT_EQ(problem_of(by_line + chip), "3:10: source = \"line\" wants a line = beside it");
+    EXPECT_EQ(problem_of(by_line + "line = \"4\"\n" + chip + "ok = \"5\"\n"), "");
+    EXPECT_EQ(problem_of(by_line + "line = \"4\"\n" + chip + "ok = \"4\"\n"),
+              "4:8: the trigger has the line of ok");
+    EXPECT_EQ(problem_of("format = 1\n" + chip + "ng = \"5\"\nok = \"5\"\n"), "4:6: ng has the line of ok");
+    // Of what is not used nothing is taken.
+    EXPECT_EQ(problem_of("format = 1\n[lines]\nng = \"5\"\nok = \"5\"\n"), "");
+    EXPECT_EQ(problem_of("format = 1\n[trigger]\nline = \"5\"\n" + chip + "ok = \"5\"\n"), "");
 }
 
 TEST(Settings, StayAsTheyWereAfterAProblem) {

@@ -298,7 +298,7 @@ TEST_F(Doctor, LooksWhetherLinesAreFreeAndTakesNone) {
     settings("[lines]\nchip = \"bcm\"\nng = \"9\"\n");
     fails("lines", "bcm: no GPIO chip has this label", "fovea probe lists the chips");
     settings("[trigger]\nsource = \"line\"\nline = \"1\"\n");
-    fails("lines", "wants a chip in [lines]", "fovea probe lists the chips");
+    fails("settings", "wants a chip in [lines]", "fovead --sample-config");
     const std::string path = machine.path("gpiochip0");
     machine.refused[path] = EACCES;
     ASSERT_EQ(::chmod(path.c_str(), 0660), 0);

@@ -57,7 +57,7 @@ inline const char* advice(const Fault& fault) {
         {"TIOCEXCL", EBUSY, "another program has this port for itself: end it first"},
         {"TCGETS2", ENOTTY, "this is not a serial port"},
         {"TCGETS2", EIO, "there is no hardware behind this port"},
-        {"GPIO_GET_LINE", EBUSY, "the line is taken: gpioinfo says by whom"},
+        {"GPIO_GET_LINE", EBUSY, "the line is taken: fovea probe says by whom"},
         {"GPIO_GET_LINE", EINVAL, "the line cannot be what is asked of it, or the chip has no such line"},
         {"GPIO_GET_LINE", ENOTTY, "this kernel is older than 5.10, where lines are asked for another way"},
         {"GPIO_GET_CHIPINFO", ENOTTY, "this is not a GPIO chip: they are /dev/gpiochip*"},
