@@ -113,7 +113,8 @@ inline void code_read_data_matrix(Workspace& work, Digest& digest) {
         CodeText told{Span<std::uint8_t>(bytes)};
         List<Code, 2> codes;
         ListView<Code> list = codes;
-        static_assert(read_data_matrix_scratch(Workspace::picture_size) <= sizeof(Workspace::scratch),
+        static_assert(read_data_matrix_scratch(Workspace::picture_size) <=
+                          static_cast<std::int64_t>(sizeof(Workspace::scratch)),
                       "the vector needs its scratch");
         digest.add(read_data_matrix(image, {}, work.scratch_span(), told, list));
         put_data_matrix_text(digest, told);
