@@ -48,8 +48,8 @@ private:
         states
     };
     static_assert(states <= 16, "a way back is a state, and two bits for how many bytes it took");
-    /// Those whose values go into codewords by three. A table and no list in the loops: GCC 12 for AArch64 leaves
-    /// out what fills such a list.
+    /// Those whose values go into codewords by three. A table and no list in the loops: GCC 12 for AArch64
+    /// leaves out what fills such a list.
     static constexpr State triple_sets[3] = {c40, text, x12};
     static constexpr int never = 1 << 28;
 
