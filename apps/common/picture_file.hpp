@@ -117,4 +117,14 @@ bool save_picture(Storage& storage, const std::string& name, const Picture<Pixel
     return false;
 }
 
+/// "a/b.png" and 2 make "a/b-2.png".
+inline std::string numbered(const std::string& name, std::size_t number) {
+    const std::size_t dot = name.rfind('.');
+    const std::size_t slash = name.rfind('/');
+    const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
+    const bool has_ending = dot != std::string::npos && dot > start;
+    const std::string ending = has_ending ? name.substr(dot) : "";
+    return name.substr(0, name.size() - ending.size()) + "-" + std::to_string(number) + ending;
+}
+
 }  // namespace fovea::apps

@@ -59,16 +59,6 @@ inline Status gauge_picture(const Picture<Gray8>& image, const Recipe& recipe,
 
 namespace detail {
 
-/// "a/b.png" and 2 make "a/b-2.png".
-inline std::string numbered(const std::string& name, std::size_t number) {
-    const std::size_t dot = name.rfind('.');
-    const std::size_t slash = name.rfind('/');
-    const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
-    const bool has_ending = dot != std::string::npos && dot > start;
-    const std::string ending = has_ending ? name.substr(dot) : "";
-    return name.substr(0, name.size() - ending.size()) + "-" + std::to_string(number) + ending;
-}
-
 /// Says on the error stream what of a part has no value, and where the recipe asks for it.
 template <class Io>
 void complain_unmeasured(Io& io, const std::string& job, const RecipeFile& file, const std::string& part_name,
@@ -188,7 +178,7 @@ ExitCode gauge_command(Io& io, const std::vector<std::string>& words) {
     if (problem.empty()) whole_option(arguments, "parts", 1, max_parts, options.parts, problem);
     const std::vector<std::string>& images = arguments.operands();
     const auto picture_of = [&](std::size_t i) {
-        return explain_name.empty() || images.size() == 1 ? explain_name : detail::numbered(explain_name, i);
+        return explain_name.empty() || images.size() == 1 ? explain_name : numbered(explain_name, i);
     };
     if (problem.empty() && explain_name == "-")
         problem = "--explain writes a file; the standard output has the results";

@@ -16,7 +16,6 @@
 #include <common/arguments.hpp>
 #include <common/io.hpp>
 #include <common/picture_file.hpp>
-#include <gauge/gauge_command.hpp>
 #include <read/code_report.hpp>
 #include <read/symbology_names.hpp>
 
@@ -264,7 +263,7 @@ ExitCode read_command(Io& io, const std::vector<std::string>& words) {
     if (problem.empty()) problem = detail::read_settings(io, arguments, settings);
     const auto picture_of = [&](std::size_t i) {
         const std::string& name = settings.explain_name;
-        return name.empty() || images.size() == 1 ? name : detail::numbered(name, i);
+        return name.empty() || images.size() == 1 ? name : numbered(name, i);
     };
     if (problem.empty() && settings.explain_name == "-")
         problem = "--explain writes a file; the standard output has the results";

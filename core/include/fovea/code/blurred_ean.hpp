@@ -28,7 +28,7 @@ struct ProfileSpan {
     int right = 0;  ///< the first one of the right margin
 };
 
-/// What is needed to read one profile: about 24 KB.
+/// What is needed to read one profile: about 22 KB.
 struct BlurredEanScratch {
     detail::BlurLetters letters;
     detail::LetterCosts costs;
@@ -56,7 +56,7 @@ struct BlurredEan {
 /// A model is fitted, not edges: letters of seven modules, spread by the disc of a lens out of focus, under
 /// light that changes evenly along the bars. Place, size, perspective and blur are found by descent, the
 /// digits by dynamic programming over all there are whose parity and check digit are right. A reading is as
-/// good as its margin: what is no EAN gives margins below 1.15, for of all numbers some always come close;
+/// good as its margin: what is no EAN gives margins below 1.2, for of all numbers some always come close;
 /// see BlurredVotes for what may be believed.
 ///
 /// Shapes    profile of 64 to max_image_side places, 1 px apart; span inside it, with at least two places of
