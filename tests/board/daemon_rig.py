@@ -1,16 +1,15 @@
 """fovead on the emulated board: its settings, its pictures, and what it says."""
+import json
 import re
 import time
 from pathlib import Path
 
-import invariants
 import mjpeg
-from board_shell import BoardShell
 from invariants import ALARM, BUSY, NG, OK, READY, VALID
+from watched import WatchedBoard
 
 WIDTH, HEIGHT = 640, 480
 TRIGGER = 0  # line 3 has the board's power button
-CHECKED = {}  # {row of the table of faults: the invariants that were checked in it}
 
 RECIPE = """format = 1
 name = "disc"
@@ -83,13 +82,13 @@ def disc(hole):
     return bytes(pixels)
 
 
-class DaemonRig(BoardShell):
+class DaemonRig(WatchedBoard):
     """A board with fovead on it, by its settings and a job."""
 
     def __init__(self, programs, settings, recipe=RECIPE, **options):
         """programs: the folder of what was compiled for the board; settings: those of fovead, without the format."""
         options.setdefault("seconds", 90)
-        super().__init__(["sh"], **options)
+        super().__init__(["sh"], process="$daemon", **options)
         here = Path(self.folder.name)
         (here / "jobs").mkdir()
         (here / "jobs/disc.toml").write_text(recipe)
@@ -104,7 +103,7 @@ class DaemonRig(BoardShell):
                      "count_calls"):
             files[f"/bin/{name}"] = Path(programs) / name
         self.options["files"] = files
-        self.record, self.unheard = invariants.Record(), b""
+        self.unheard = b""
         self.record.stamped_at_end = "usb:" not in settings
 
     def __enter__(self):
@@ -112,29 +111,27 @@ class DaemonRig(BoardShell):
         self.run("mkdir -p /tmp; ln -s /test /etc/fovea")
         return self
 
-    def __exit__(self, kind, *error):
-        try:
-            if kind is None:
-                self.pins.changes()
-                self.record.pins = self.pins.history
-                for row, checked in self.record.rows(invariants.check(self.record)).items():
-                    CHECKED.setdefault(row, set()).update(checked)
-        finally:
-            super().__exit__(kind, *error)
-
-    def line(self):
-        line = super().line()
-        if line.startswith("{"):
-            self.record.said.append(self.events[-1])
-        return line
-
     def start(self, program="fovead", before=""):
         """Starts fovead, and waits until it says so."""
         self.tell(f"({before} exec {program} --config /etc/fovea/fovead.toml < /dev/null 2> /tmp/complaints) & daemon=$!")
         return self.event("start")
 
+    def cut_power(self):
+        """In the middle of what it does; a board with the same disks is up then. Without power all lines are low."""
+        self.board.kill()
+        for line in (self.board.stdout.rest + self.board.stdout.read()).decode().split("\n")[:-1]:
+            if line.startswith("{"):
+                self.record.said.append(json.loads(line))
+        history = self.pins.whole_history()
+        self.record.pins += history + [(line, 0) for line in (VALID, OK, NG, ALARM, BUSY, READY) if dict(history).get(line)]
+        self.board.__exit__()
+        self.events, self.unheard = [], b""
+        self.__dict__.pop("pictures", None)
+        self.__enter__()
+
     def stop(self):
         """Ends it: (its status, the seconds that it took)."""
+        self.count_calls_after()
         if self.record.held:
             self.hold()
         begin = time.monotonic()
@@ -146,27 +143,6 @@ class DaemonRig(BoardShell):
         if event["ev"] == "result" and not self.record.held:
             self.hold()
         return event
-
-    # ---- What the invariants are checked by ----
-
-    def provoke(self, row, onset=None, count=1):
-        """A fault of the table is about to be provoked: so many events of its onset must come of it."""
-        self.record.faults.append((row, onset, count))
-
-    def hold(self):
-        """Notes what the daemon holds of the kernel; nothing may be wrong now."""
-        process = "/proc/$daemon"
-        status, lines = self.run(f"echo $(ls {process}/fd | wc -l) $(wc -l < {process}/maps) "
-                                 f"$(sed -n 's/^Anonymous: *//p' {process}/smaps_rollup)")
-        files, mappings, kib = lines[0].split()[:3]
-        self.record.held.append(((int(files), int(mappings), int(kib)), len(self.record.said)))
-
-    def count_calls(self, row, where, seconds=2, frames=0):
-        """The daemon's system calls a second while that is wrong; frames: so many come in a second."""
-        said = self.run(f"count_calls $daemon {int(seconds * 1000)}")[1][-1]
-        calls, turns, took_us = map(int, re.fullmatch(r"calls (\d+) turns (\d+) us (\d+)", said).groups())
-        self.record.calls.append((row, where, calls, turns, took_us / 1e6, frames))
-        return calls / took_us * 1e6
 
     def heard(self, count, seconds=5):
         """So many lines of the serial port's other end; each is whole."""

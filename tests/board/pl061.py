@@ -54,6 +54,12 @@ class Pins:
                 if self.ended or not self.came.wait(max(end - time.monotonic(), 0)):
                     return None
 
+    def whole_history(self):
+        """All changes, once the board has ended."""
+        with self.came:
+            self.came.wait_for(lambda: self.ended)
+        return self.history
+
     def tell(self, command):
         self.world.sendall(f"{command}\n".encode())
         with self.came:

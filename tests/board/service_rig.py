@@ -2,7 +2,7 @@
 import re
 from pathlib import Path
 
-from board_shell import BoardShell
+from watched import WatchedBoard
 
 HOME = "/srv/person"
 # As tests/run fetches them before.
@@ -26,12 +26,13 @@ exec su person
 """
 
 
-class ServiceRig(BoardShell):
+class ServiceRig(WatchedBoard):
     """The shell is the person's; settings and jobs are those that the package brings."""
 
     def __init__(self, package, texts, **options):
         """package: the .deb, which is at the person's home; texts: {path on the board: what stands there}."""
-        super().__init__(["sh", "-c", PREPARE], systemd=True, packages=PACKAGES, seconds=240, **options)
+        super().__init__(["sh", "-c", PREPARE], process="$(sudo systemctl show --value -p MainPID fovead)", sudo="sudo ", systemd=True, packages=PACKAGES,
+                         seconds=240, **options)
         files = self.options.setdefault("files", {})
         files[f"{HOME}/{package.name}"] = package
         for number, (path, text) in enumerate(texts.items()):

@@ -15,7 +15,9 @@ from pathlib import Path
 from cases import case, holds, run_cases, same
 from daemon_rig import ALARM, BUSY, NG, OK, READY, TRIGGER, VALID
 from emulated_board import EmulatedBoard
+from faults_page import IN_SERVICE
 from service_rig import HOME, ServiceRig
+from watched import unlike_the_page
 
 PACKAGE, PROGRAMS = (Path(word).resolve() for word in sys.argv[1:3])
 ROOT = Path(__file__).resolve().parents[2]
@@ -50,6 +52,7 @@ def rig(**options):
     """With a job for what vivid shows, the programs that cases ask for, and a filter that nothing slips through."""
     texts = {f"{HOME}/square.toml": JOB, "/etc/systemd/system/fovead.service.d/kill.conf": KILL}
     files = {f"/board/{name}": PROGRAMS / name for name in ("hanging_fovead", "usb_camera")}
+    files["/bin/count_calls"] = PROGRAMS / "count_calls"
     return ServiceRig(PACKAGE, texts, files=files, **options)
 
 
@@ -228,6 +231,7 @@ def comes_back(board, active, limit, what, hung_us):
     same((READY, 1) in seen or board.pins.wait_for(READY, 1), True)
     same({board.pins.outputs()[line] for line in (OK, NG, VALID, BUSY)}, {0})
     result = good_part(board)
+    board.hold()
     figures[f"F28: {what}: until its lines were safe"] = f"{(safe_us - hung_us) // 1000} ms"
     figures[f"F28: {what}: until it was started again"] = f"{(started_us - hung_us) // 1000} ms"
     figures[f"F28: {what}: until its first verdict"] = f"{(result['t_mono_us'] - hung_us) // 1000} ms"
@@ -254,6 +258,8 @@ def a_daemon_that_hangs_is_started_again_with_its_lines_safe():
         begin(board)
         same(board.shown("WatchdogUSec", "Restart", "TimeoutStopUSec"),
              {"WatchdogUSec": "10s", "Restart": "always", "TimeoutStopUSec": "5s"})
+        board.hold()
+        board.provoke("F28")
         # The daemon as it is shipped: all of it stands still.
         board.pins.changes()
         stopped = float(board.must("sudo kill -STOP $(pidof fovead); cut -d ' ' -f 1 /proc/uptime")[0])
@@ -278,6 +284,9 @@ def a_daemon_that_hangs_is_started_again_with_its_lines_safe():
         comes_back(board, BUSY, SHORT_S + 2, f"setting a line hangs, WatchdogSec={SHORT_S}", hung["t_mono_us"])
 
         # The serial port, while a person ends the service: the second record hangs.
+        board.count_calls_after()
+        # Whoever hangs cannot tell of it: systemd has, once for each.
+        same(board.text("sudo journalctl -u fovead -o cat --no-pager").count("Failed with result 'watchdog'"), 3)
         hangs(board, "serial", 2)
         good_part(board)
         pulse(board)
@@ -396,6 +405,7 @@ if __name__ == "__main__":
         at = words.index("--figures")
         words[at:at + 2] = []
     status = run_cases("service_test", words)
+    status = status or unlike_the_page(IN_SERVICE, not words)
     for name in sorted(figures):
         print(f"  {name}: {figures[name]}")
     if path is not None:
