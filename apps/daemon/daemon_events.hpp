@@ -4,6 +4,7 @@
 // it ends.
 #pragma once
 
+#include <cerrno>
 #include <cstdint>
 
 #include <fovea/base/span.hpp>
@@ -97,7 +98,8 @@ public:
             const char* const reason = fault.error != 0 ? linux_port::reason(fault) : describe(kept);
             line_.text(",\"reason\":").json(letters_of(reason));
         }
-        const char* const advice = kept != Status::ok ? linux_port::advice(fault) : "";
+        const char* advice = kept != Status::ok ? linux_port::advice(fault) : "";
+        if (fault.error == ENOENT) advice = "the folder above that of [teach] is not there: make it";
         if (advice[0] != '\0') line_.text(",\"try\":").json(letters_of(advice));
         end();
     }

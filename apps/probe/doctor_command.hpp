@@ -62,7 +62,7 @@ ExitCode doctor_command(Io& io, const std::vector<std::string>& words) {
         checks.ok("jobs",
                   std::to_string(files.jobs.size()) + ", and it begins with " + files.jobs[files.job].name);
     else
-        checks.fail("jobs", files.problem, "fovea teach makes a recipe from pictures of good parts");
+        checks.fail("jobs", files.problem, "");  // it says what to do
     CameraDoctor(io.system(), io.machine(), files.settings, frames, checks).look();
     check_serial(io.system(), io.machine(), files.settings.serial, checks);
     check_lines(io.system(), io.machine(), files.settings, checks);

@@ -197,6 +197,12 @@ TEST(Daemon, ObeysItsCommands) {
         world.printed.back().find("\"name\":\"cap\",\"reason\":\"Permission denied\",\"try\":\"this user"),
         std::string::npos)
         << world.printed.back();
+    world.sample_fault = {"mkdir", ENOENT, Status::io_error};
+    EXPECT_EQ(ask("TEACH cap"), "OK\r\n");
+    run(world, bench.daemon, 100000);
+    EXPECT_NE(world.printed.back().find("\"try\":\"the folder above that of [teach] is not there"),
+              std::string::npos)
+        << world.printed.back();
     world.device.unplugged = true;
     run(world, bench.daemon, 20000);
     EXPECT_EQ(ask("TEACH cap"), "ERR 30 not ready\r\n");
