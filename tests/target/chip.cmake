@@ -23,7 +23,7 @@ endif()
 set(roomy_boards roomy_microbit mps2_an385 mps2_an386 mps2_an500 mps2_an505 mps3_an547 rv32_virt)
 foreach(board IN LISTS fovea_boards ITEMS roomy_microbit)
   if(TARGET fovea_board_${board} AND board IN_LIST roomy_boards)
-    add_executable(golden_${board} golden.cpp)
+    add_executable(golden_${board} costs.cpp golden.cpp)  # what both have is taken of the first
     target_include_directories(golden_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_compile_options(golden_${board} PRIVATE ${golden_level} ${golden_compiler})
     target_link_libraries(golden_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
