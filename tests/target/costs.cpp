@@ -3,7 +3,8 @@
 // What operators cost on a chip: each runs once over a picture of 320x240 between two marks, and
 // count_instructions.cpp counts what the processor does there.
 //
-// A source file of its own: in one with the golden vectors, what the compiler puts into what would change with each vector.
+// A source file of its own: in one with the golden vectors, each new vector changes what the compiler
+// inlines.
 #include "costs.hpp"
 
 #include <cstdint>
