@@ -24,8 +24,8 @@ namespace fovea::test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using Ports = apps::GaugePorts<simulated::BytePipe, simulated::Pin, simulated::Pin, simulated::Clock,
-                               simulated::Watchdog>;
+using Ports = apps::FirmwarePorts<simulated::BytePipe, simulated::Pin, simulated::Pin, simulated::Clock,
+                                  simulated::Watchdog>;
 using Memory = apps::GaugeMemory<6000, 30000, 200, 2, 2>;
 
 constexpr Size frame_size{80, 60};
@@ -95,8 +95,9 @@ protected:
     simulated::Clock clock;
     simulated::Watchdog watchdog{clock, 3000000};
     std::unique_ptr<Memory> memory = std::make_unique<Memory>();
-    apps::FirmwareGauge<Ports, Memory> firmware{Ports{serial, trigger, ok, not_ok, clock, watchdog}, *memory,
-                                                "bench"};
+    apps::GaugeJob<Memory> job{*memory};
+    apps::FrameFirmware<Ports, apps::GaugeJob<Memory>> firmware{
+        Ports{serial, trigger, ok, not_ok, clock, watchdog}, job, "bench"};
 };
 
 TEST_F(FirmwareGauge, SaysWhatItIsAndWhatItTakes) {

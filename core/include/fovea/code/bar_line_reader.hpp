@@ -58,6 +58,12 @@ public:
     /// Where the brightness of the next line goes.
     Span<std::int16_t> profile(int samples) const { return profile_.first(samples); }
 
+    /// Memory in which nothing is kept from line to line, apart from the profile.
+    Span<std::uint8_t> idle() const {
+        return {reinterpret_cast<std::uint8_t*>(turns_.data()),
+                turns_.size() * static_cast<std::ptrdiff_t>(sizeof(BarTurn))};
+    }
+
     /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only.
     void read(const BarLine& line, int level, Span<std::int16_t> sharp) {
         if (line.samples < fewest_bar_edges) return;

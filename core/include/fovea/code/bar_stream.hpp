@@ -62,6 +62,10 @@ public:
         return Status::ok;
     }
 
+    /// Memory that is idle between two calls, 8 bytes for each pixel of the width: where there is little, the
+    /// next row may arrive in it. Empty where the stream was started with an error.
+    Span<std::uint8_t> idle_scratch() const { return reader_.idle(); }
+
     /// The codes of the rows since the start, appended to text and list. No row is taken after it.
     ///
     /// Errors  as read_bars()

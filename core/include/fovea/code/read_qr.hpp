@@ -34,22 +34,24 @@ struct QrReadOptions {
     /// What is tried on an image in which nothing was read yet: more takes longer where no code is.
     enum class Effort : std::uint8_t {
         quick,     ///< one threshold
-        thorough,  ///< thresholds of several kinds, and the image at half its size
+        several,   ///< the thresholds that need little scratch
+        thorough,  ///< one that brings out blurred rings too, and the image at half its size
     };
 
     Effort effort = Effort::thorough;
-    int max_codes = 16;  ///< 1 or more: looks for no more
+    int max_codes = 16;                    ///< 1 or more: looks for no more
+    int largest_version = max_qr_version;  ///< 1..40: larger symbols are not read; fewer need less scratch
 };
 
-/// Scratch bytes that read_qr() needs.
-constexpr std::int64_t read_qr_scratch(Size size);
+/// Scratch bytes that read_qr() needs: less where effort and versions are limited.
+constexpr std::int64_t read_qr_scratch(Size size, const QrReadOptions& options = {});
 
 /// Reads the QR codes of an image, in any direction, in perspective, dark on light or light on dark, mirrored
 /// or not. Their texts are appended to text and they to codes, those of the clearest finders first.
 ///
 /// Shapes   src 1x1 or larger; modules of a pixel and more
 /// Time     bounded by the pixels, and by 24 finder patterns and 16 tries of three of them for each threshold
-/// Scratch  read_qr_scratch(src.size()) bytes, undefined afterwards
+/// Scratch  read_qr_scratch(src.size(), options) bytes, undefined afterwards
 /// Errors   empty_image; bad_argument; scratch_too_small; not_found; buffer_too_small where a text that was
 ///          read does not fit; capacity_exceeded where the list is full, with what it holds
 /// Source   finder patterns as ISO/IEC 18004, clause 12 b), tells; then the plane through their centres and
@@ -64,27 +66,40 @@ namespace detail {
 
 class QrReader {
 public:
-    static constexpr std::int64_t threshold_scratch(Size size) {
+    /// The largest symbol that is read: one of which an image shows every module.
+    static constexpr int most_modules(Size size, const QrReadOptions& options) {
+        return clamp(minimum(size.width, size.height) + 4, qr_size(min_qr_version),
+                     qr_size(options.largest_version));
+    }
+    static constexpr bool is_thorough(const QrReadOptions& options) {
+        return options.effort == QrReadOptions::Effort::thorough;
+    }
+    static constexpr std::int64_t threshold_scratch(Size size, const QrReadOptions& options) {
         const std::int64_t narrow = arena_bytes<std::uint8_t>(adaptive_threshold_scratch(size, narrow_side)) +
                                     arena_bytes<Gray8>(std::int64_t{size.width} * band_rows);
         return maximum(maximum(local_threshold_scratch(size, finest_block), arena_bytes<Histogram>(1)),
-                       narrow);
+                       is_thorough(options) ? narrow : 0);
     }
-    /// The largest symbol of which an image shows every module.
-    static constexpr int most_modules(Size size) {
-        return clamp(minimum(size.width, size.height) + 4, qr_size(min_qr_version), max_qr_size);
+    static constexpr std::int64_t decode_scratch(int modules) {
+        return qr_decode_scratch((modules - 17) / 4);
     }
-    static constexpr std::int64_t decode_scratch(Size size) {
-        return qr_decode_scratch((most_modules(size) - 17) / 4);
+    /// Of what comes behind the threshold.
+    static constexpr std::int64_t reading_scratch(int modules) {
+        const std::int64_t most = modules;
+        return arena_bytes<FinderPattern>(max_finder_patterns) +
+               arena_bytes<BitWord>(std::int64_t{bit_words(modules)} * most) +
+               arena_bytes<std::int16_t>(most * most) + arena_bytes<std::uint8_t>(decode_scratch(modules));
     }
-    static constexpr std::int64_t scratch(Size size) {
-        const std::int64_t most = most_modules(size);
+    static constexpr std::int64_t shared_scratch(Size size, const QrReadOptions& options) {
+        return maximum(threshold_scratch(size, options), reading_scratch(most_modules(size, options)));
+    }
+    static constexpr std::int64_t half_scratch(Size size, const QrReadOptions& options) {
+        return is_thorough(options) ? Size{size.width / 2, size.height / 2}.area() : 0;
+    }
+    static constexpr std::int64_t scratch(Size size, const QrReadOptions& options) {
         return arena_bytes<BitWord>(std::int64_t{bit_words(size.width)} * size.height) +
-               arena_bytes<std::uint8_t>(threshold_scratch(size)) +
-               arena_bytes<Gray8>(Size{size.width / 2, size.height / 2}.area()) +
-               arena_bytes<FinderPattern>(max_finder_patterns) +
-               arena_bytes<BitWord>(std::int64_t{bit_words(max_qr_size)} * most) +
-               arena_bytes<std::int16_t>(most * most) + arena_bytes<std::uint8_t>(decode_scratch(size));
+               arena_bytes<Gray8>(half_scratch(size, options)) +
+               arena_bytes<std::uint8_t>(shared_scratch(size, options));
     }
 
     QrReader(ImageView<const Gray8> src, const QrReadOptions& options, Span<std::uint8_t> scratch,
@@ -94,16 +109,18 @@ public:
           text_(text),
           codes_(codes),
           first_(codes.size()),
-          most_(most_modules(src.size())) {
+          most_(most_modules(src.size(), options)) {
         const Size size = src.size();
         Arena arena(scratch);
         bit_room_ = arena.take_unset<BitWord>(std::int64_t{bit_words(size.width)} * size.height);
-        threshold_room_ = arena.take_unset<std::uint8_t>(threshold_scratch(size));
-        half_room_ = arena.take_unset<Gray8>(Size{size.width / 2, size.height / 2}.area());
-        pattern_room_ = arena.take<FinderPattern>(max_finder_patterns);
-        module_room_ = arena.take_unset<BitWord>(std::int64_t{bit_words(max_qr_size)} * most_);
-        gray_room_ = arena.take_unset<std::int16_t>(std::int64_t{most_} * most_);
-        decode_room_ = arena.take_unset<std::uint8_t>(decode_scratch(size));
+        half_room_ = arena.take_unset<Gray8>(half_scratch(size, options));
+        // When the image is black and white, the memory of its threshold serves what is found in it.
+        threshold_room_ = arena.take_unset<std::uint8_t>(shared_scratch(size, options));
+        Arena shared(threshold_room_);
+        pattern_room_ = shared.take_unset<FinderPattern>(max_finder_patterns);
+        module_room_ = shared.take_unset<BitWord>(std::int64_t{bit_words(most_)} * most_);
+        gray_room_ = shared.take_unset<std::int16_t>(std::int64_t{most_} * most_);
+        decode_room_ = shared.take_unset<std::uint8_t>(decode_scratch(most_));
     }
 
     Status read() {
@@ -112,6 +129,7 @@ public:
         if (options_.effort == QrReadOptions::Effort::quick) return result();
         if (pass(full_, tiny ? Threshold::fine : Threshold::global)) return result();
         if (pass(full_, Threshold::coarse)) return result();
+        if (!is_thorough(options_)) return result();
         if (pass(full_, Threshold::narrow)) return result();
         if (full_.width() >= 2 * tiny_side && full_.height() >= 2 * tiny_side) {
             halve();
@@ -297,13 +315,17 @@ private:
 
 }  // namespace detail
 
-constexpr std::int64_t read_qr_scratch(Size size) { return detail::QrReader::scratch(size); }
+constexpr std::int64_t read_qr_scratch(Size size, const QrReadOptions& options) {
+    return detail::QrReader::scratch(size, options);
+}
 
 inline Status read_qr(ImageView<const Gray8> src, const QrReadOptions& options, Span<std::uint8_t> scratch,
                       CodeText& text, ListView<Code> codes) {
     if (src.empty()) return Status::empty_image;
-    if (options.max_codes < 1) return Status::bad_argument;
-    if (scratch.size() < read_qr_scratch(src.size())) return Status::scratch_too_small;
+    if (options.max_codes < 1 || options.largest_version < min_qr_version ||
+        options.largest_version > max_qr_version)
+        return Status::bad_argument;
+    if (scratch.size() < read_qr_scratch(src.size(), options)) return Status::scratch_too_small;
     return detail::QrReader(src, options, scratch, text, codes).read();
 }
 

@@ -25,8 +25,8 @@ void require(bool claim) {
     if (!claim) __builtin_trap();
 }
 
-using Ports = apps::GaugePorts<simulated::BytePipe, simulated::Pin, simulated::Pin, simulated::Clock,
-                               simulated::Watchdog>;
+using Ports = apps::FirmwarePorts<simulated::BytePipe, simulated::Pin, simulated::Pin, simulated::Clock,
+                                  simulated::Watchdog>;
 using Memory = apps::GaugeMemory<400, 12000, 120, 2, 2>;
 
 Bytes good_recipe() {
@@ -66,8 +66,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     simulated::Watchdog watchdog(clock, 5000000);
     static Memory memory;
     memory = {};
-    apps::FirmwareGauge<Ports, Memory> firmware({serial, trigger, ok, not_ok, clock, watchdog}, memory,
-                                                "fuzz");
+    apps::GaugeJob<Memory> job(memory);
+    apps::FrameFirmware<Ports, apps::GaugeJob<Memory>> firmware(
+        {serial, trigger, ok, not_ok, clock, watchdog}, job, "fuzz");
     firmware.start({});
     put_packet(serial, good_recipe());
     const auto turn = [&] {

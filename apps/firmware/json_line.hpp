@@ -23,15 +23,23 @@ public:
         : serial_(serial), clock_(clock), watchdog_(watchdog) {}
 
     JsonLine& text(const char* text) {
+        // The line may be a long one.
+        watchdog_.feed();
         for (; *text != '\0'; ++text) put(*text);
         return *this;
     }
-    /// A string of printable UTF-8 in quotes.
+    /// A string of UTF-8 in quotes.
     JsonLine& string(Span<const char> letters) {
         put('"');
-        for (std::ptrdiff_t i = 0; i < letters.size(); ++i) {
-            if (letters[i] == '"' || letters[i] == '\\') put('\\');
-            put(letters[i]);
+        for (const char letter : letters) {
+            const auto byte = static_cast<unsigned char>(letter);
+            if (byte < 0x20 || byte == 0x7f) {
+                text("\\u00").put(hexadecimal(byte >> 4));
+                put(hexadecimal(byte & 15));
+                continue;
+            }
+            if (letter == '"' || letter == '\\') put('\\');
+            put(letter);
         }
         put('"');
         return *this;
@@ -50,6 +58,9 @@ public:
     }
 
 private:
+    static char hexadecimal(int digit) {
+        return static_cast<char>(digit < 10 ? '0' + digit : 'a' + digit - 10);
+    }
     void put(char letter) {
         if (torn_) send('\n');
         torn_ = false;
