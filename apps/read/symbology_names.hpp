@@ -33,8 +33,7 @@ inline std::string read_symbologies(const std::string& text, SymbologySet& set) 
         if (word == "all") added = SymbologySet::all();
         if (word == "bars") added = bar_symbologies();
         if (word == "matrices") added = SymbologySet(Symbology::qr) | Symbology::data_matrix;
-        if (word == "retail")
-            added = SymbologySet(Symbology::ean_13) | Symbology::ean_8 | Symbology::upc_a | Symbology::upc_e;
+        if (word == "retail") added = retail_symbologies();
         for (int i = 0; i < symbology_count; ++i)
             if (word == word_of(symbology_at(i))) added = symbology_at(i);
         if (added.empty())

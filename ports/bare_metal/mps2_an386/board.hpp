@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include <fovea/bare_metal/cmsdk_uart.hpp>
+#include <fovea/bare_metal/cmsdk_watchdog.hpp>
+#include <fovea/bare_metal/fpgaio_button.hpp>
 #include <fovea/bare_metal/fpgaio_led.hpp>
 #include <fovea/bare_metal/polled_stream.hpp>
 #include <fovea/bare_metal/semihosting.hpp>
@@ -28,10 +30,16 @@ inline Serial start_serial() {
 using Clock = bare_metal::Systick;
 inline Clock start_clock() { return Clock(clock_hz); }
 
-/// Verdicts on the two user LEDs.
+/// Verdicts on the two user LEDs, the trigger on the first user button.
 using OutputPin = bare_metal::FpgaioLed;
+using TriggerPin = bare_metal::FpgaioButton;
 inline OutputPin ok_pin() { return {0x40028000, 0}; }
 inline OutputPin not_ok_pin() { return {0x40028000, 1}; }
+inline TriggerPin trigger_pin() { return {0x40028000, 0}; }
+
+/// Bites after twice 1.5 seconds.
+using Watchdog = bare_metal::CmsdkWatchdog;
+inline Watchdog start_watchdog() { return {0x40008000, clock_hz / 2 * 3}; }
 
 [[noreturn]] inline void finish(int code) { bare_metal::end_program(code); }
 

@@ -13,10 +13,15 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
+/// Those of shops: EAN and UPC.
+constexpr SymbologySet retail_symbologies() {
+    return Symbology::ean_13 | SymbologySet(Symbology::ean_8) | Symbology::upc_a | Symbology::upc_e;
+}
+
 /// The symbologies that are made of bars.
 constexpr SymbologySet bar_symbologies() {
-    return Symbology::ean_13 | SymbologySet(Symbology::ean_8) | Symbology::upc_a | Symbology::upc_e |
-           Symbology::code_128 | Symbology::code_39 | Symbology::interleaved_2_of_5 | Symbology::codabar;
+    return retail_symbologies() | Symbology::code_128 | Symbology::code_39 | Symbology::interleaved_2_of_5 |
+           Symbology::codabar;
 }
 
 /// Whether a check character that the standard leaves to the user is there.

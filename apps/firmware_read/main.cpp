@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// A reader of codes on a board: wires the firmware to the board's own serial line, pins, clock and watchdog. With
+// FOVEA_WIDTH alone it reads bar codes from lines; with the others QR codes.
+#include <board.hpp>
+#include <fovea/bare_metal/restart.hpp>
+
+#include <firmware/flash_file.hpp>
+#include <firmware/frame_firmware.hpp>
+#ifdef FOVEA_HEIGHT
+#include <firmware_read/qr_job.hpp>
+#else
+#include <firmware_read/bar_job.hpp>
+#endif
+
+namespace {
+
+using namespace fovea;
+
+#ifdef FOVEA_HEIGHT
+apps::QrMemory<FOVEA_WIDTH, FOVEA_HEIGHT, FOVEA_LARGEST_VERSION, FOVEA_TEXT_BYTES> memory;
+apps::QrJob<decltype(memory)> make_job() { return apps::QrJob<decltype(memory)>(memory); }
+#else
+apps::BarMemory<FOVEA_WIDTH> memory;
+apps::BarJob<decltype(memory)> make_job() { return {memory, FOVEA_SYMBOLOGIES}; }
+#endif
+
+}  // namespace
+
+/// A fault ends with both verdicts inactive and a new start.
+extern "C" [[noreturn]] void fovea_fault() {
+    static_cast<void>(fovea::board::ok_pin());
+    static_cast<void>(fovea::board::not_ok_pin());
+    fovea::bare_metal::restart();
+}
+
+int main() {
+    board::OutputPin ok = board::ok_pin();
+    board::OutputPin not_ok = board::not_ok_pin();
+    board::Watchdog watchdog = board::start_watchdog();
+    board::Serial serial = board::start_serial();
+    board::Clock clock = board::start_clock();
+    board::TriggerPin trigger = board::trigger_pin();
+    using Ports = apps::FirmwarePorts<board::Serial, board::TriggerPin, board::OutputPin, board::Clock,
+                                      board::Watchdog>;
+    auto job = make_job();
+    apps::FrameFirmware<Ports, decltype(job)> firmware(Ports{serial, trigger, ok, not_ok, clock, watchdog},
+                                                       job, board::name);
+    firmware.start(apps::flash_file());
+    for (;;) firmware.turn();
+}
