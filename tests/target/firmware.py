@@ -37,16 +37,21 @@ def line(number, pixels):
     return packet("L", number.to_bytes(2, "little") + pixels)
 
 
-class Picture:
-    """A binary PGM as the packets of its frame."""
+def read_pgm(path):
+    """(width, height, pixels) of a binary PGM."""
+    words = path.read_bytes().split(maxsplit=3)
+    assert words[0] == b"P5"
+    width, height = int(words[1]), int(words[2])
+    return width, height, path.read_bytes()[-width * height:]
 
-    def __init__(self, path):
-        words = path.read_bytes().split(maxsplit=3)
-        assert words[0] == b"P5"
-        self.width, self.height = int(words[1]), int(words[2])
-        pixels = path.read_bytes()[-self.width * self.height:]
-        self.begin = begin(self.width, self.height)
-        self.lines = [line(y, pixels[y * self.width:][:self.width]) for y in range(self.height)]
+
+class Frame:
+    """A picture as the packets of its frame."""
+
+    def __init__(self, width, height, pixels):
+        self.width, self.height = width, height
+        self.begin = begin(width, height)
+        self.lines = [line(y, pixels[y * width:][:width]) for y in range(height)]
 
     def all(self):
         return self.begin + b"".join(self.lines)
@@ -163,7 +168,7 @@ def drive(firmware, fovea, folder, recipe_inside):
     tool = tool_in(fovea, folder)
     make_files(tool)
     told = [json.loads(text) for text in tool("gauge", "--job", "plate.toml", "--json", "good.pgm", "short.pgm").splitlines()]
-    good, short = Picture(folder / "good.pgm"), Picture(folder / "short.pgm")
+    good, short = (Frame(*read_pgm(folder / name)) for name in ("good.pgm", "short.pgm"))
     good_told, short_told = map(as_told_by_a_board, told)
     if (good_told["verdict"], short_told["verdict"]) != ("ok", "not_ok"):
         sys.exit("firmware: the pictures do not show a good part and a short one")

@@ -16,9 +16,15 @@ BOARDS = {
     "microbit": ("/machine/nrf51 unnamed-gpio-in 1", 0x50000504, 1 << 3, 1 << 2),
     "lm3s6965evb": ("/machine/unattached/device[12] unnamed-gpio-in 2", 0x400053FC, 1, 2),
     "sifive_e": ("/machine/soc unnamed-gpio-in 7", 0x1001200C, 1 << 19, 1 << 20),
+    "mps2_an386": (None, 0x40028000, 1, 2),
     "mps2_an500": (None, 0x40028000, 1, 2),
     "netduinoplus2": ("/machine/unattached/device[0]/syscfg unnamed-gpio-in 3", None, 0, 0),
 }
+
+
+def address_of(program, name):
+    symbols = subprocess.run(["arm-none-eabi-nm", program], check=True, capture_output=True, text=True).stdout
+    return int(next(line for line in symbols.splitlines() if line.endswith(f" {name}")).split()[0], 16)
 
 
 class Board:
@@ -54,9 +60,7 @@ class Board:
 
     def deepest_stack(self, program):
         """Of the stack that startup painted: how much a program took."""
-        symbols = subprocess.run(["arm-none-eabi-nm", program], check=True, capture_output=True, text=True).stdout
-        limit, top = (int(next(line for line in symbols.splitlines() if line.endswith(f" fovea_stack_{end}")).split()[0], 16)
-                      for end in ("limit", "top"))
+        limit, top = address_of(program, "fovea_stack_limit"), address_of(program, "fovea_stack_top")
         memory = bytes.fromhex(self.tell(f"read {limit:#x} {top - limit:#x}")[0][2:])
         free = next(i for i in range(0, len(memory), 4) if memory[i:i + 4] != bytes.fromhex("55eeffc0"))
         return f"{len(memory) - free} of {len(memory)} bytes of stack"
