@@ -20,9 +20,12 @@ using namespace fovea;
 #ifdef FOVEA_HEIGHT
 apps::QrMemory<FOVEA_WIDTH, FOVEA_HEIGHT, FOVEA_LARGEST_VERSION, FOVEA_TEXT_BYTES> memory;
 apps::QrJob<decltype(memory)> make_job() { return apps::QrJob<decltype(memory)>(memory); }
+// Noise, which takes longest, takes 80 million instructions, in which no watchdog is fed.
+board::Watchdog start_watchdog() { return board::start_watchdog(10); }
 #else
 apps::BarMemory<FOVEA_WIDTH> memory;
 apps::BarJob<decltype(memory)> make_job() { return {memory, FOVEA_SYMBOLOGIES}; }
+board::Watchdog start_watchdog() { return board::start_watchdog(); }
 #endif
 
 }  // namespace
@@ -37,7 +40,7 @@ extern "C" [[noreturn]] void fovea_fault() {
 int main() {
     board::OutputPin ok = board::ok_pin();
     board::OutputPin not_ok = board::not_ok_pin();
-    board::Watchdog watchdog = board::start_watchdog();
+    board::Watchdog watchdog = start_watchdog();
     board::Serial serial = board::start_serial();
     board::Clock clock = board::start_clock();
     board::TriggerPin trigger = board::trigger_pin();

@@ -703,17 +703,41 @@ def target_firmware(folder):
     """firmware.py must see a wrong value, an error that is not told, and a pin that stays."""
     fovea = PROJECT / "build/tool/apps/fovea"
     limits = "-DFOVEA_FRAME_BYTES=3072 -DFOVEA_SCRATCH_BYTES=7168 -DFOVEA_LINE_BYTES=384 -DFOVEA_FEATURES=6 -DFOVEA_PARTS=1"
-    faults = [("nothing", "", "", None),
-              ("value", "(result.measurement.value, places)", "(result.measurement.value + Decimal{1}, places)", "the tool measured"),
-              ("pins", "set_outputs(Verdict::unmeasured);\n        line_.text(\"{\");", "line_.text(\"{\");", "OK and not OK must be"),
-              ("order", 'if (number_at(rest, 0) != next_line_) return fail("line missing");', "", "a line that is missing")]
-    for name, good, bad, words in faults:
+    frames = "firmware/frame_firmware.hpp"
+    faults = [("nothing", "", "", "", None),
+              ("value", "firmware_gauge/firmware_gauge.hpp", "(result.measurement.value, places)",
+               "(result.measurement.value + Decimal{1}, places)", "the tool measured"),
+              ("pins", frames, "set_outputs(Verdict::unmeasured);\n        line_.text(\"{\");", "line_.text(\"{\");",
+               "OK and not OK must be"),
+              ("order", frames, 'if (number_at(rest, 0) != next_line_) return fail("line missing");', "", "a line that is missing")]
+    for name, file, good, bad, words in faults:
         tree = copy_of_project(folder / name)
-        if good:
-            replace(tree / "apps/firmware_gauge/firmware_gauge.hpp", good, bad)
+        if file:
+            replace(tree / "apps" / file, good, bad)
         yield name, ["sh", "-c", f"cd {tree} && {MICROBIT} -Iapps {limits} -Wl,--defsym=fovea_stack_size=3328 "
                                  f"apps/firmware_gauge/main.cpp -lgcc -o firmware && "
                                  f"{PROJECT}/tests/target/firmware.py microbit firmware {fovea}"], words
+
+
+def target_firmware_read(folder):
+    """firmware_read.py must see another text, a verdict that is wrong, a code that stays from the frame before, and a program
+    that takes more memory than it is granted."""
+    faults = [("nothing", "", "", "", 640, None),
+              ("text", "frame_codes.hpp", "*size});\n        else", "*size - 1});\n        else", 640, "the tool reads"),
+              ("verdict", "frame_codes.hpp", "verdict = Verdict::ok;", "verdict = Verdict::not_ok;", 640, "ok, None was expected"),
+              ("pins", "frame_codes.hpp", "verdict = Verdict::not_ok;\n        if (status == Status::not_found",
+               "verdict = Verdict::ok;\n        if (status == Status::not_found", 640, "not_ok, nothing found was expected"),
+              ("a frame before", "bar_job.hpp", "stream_ = fresh(size.width);", "if (stream_.idle_scratch().size() != 8 * size.width) "
+               "stream_ = fresh(size.width);", 640, "firmware_read: "),
+              ("memory", "", "", "", 680, "memory_budget.txt grants it")]
+    for name, file, good, bad, width, words in faults:
+        tree = copy_of_project(folder / name)
+        if file:
+            replace(tree / "apps/firmware_read" / file, good, bad)
+        yield name, ["sh", "-c", f"cd '{tree}' && {MICROBIT} -Iapps -DFOVEA_WIDTH={width} '-DFOVEA_SYMBOLOGIES=retail_symbologies()' "
+                                 "-Wl,--defsym=fovea_stack_size=2432 apps/firmware_read/main.cpp -lgcc -o firmware_read_bars_microbit && "
+                                 f"{PROJECT}/tests/target/firmware_read.py microbit firmware_read_bars_microbit "
+                                 f"{PROJECT}/build/tool/apps/fovea"], words
 
 
 def target_new_board(folder):
@@ -732,7 +756,8 @@ def target_new_board(folder):
     yield "a clock at no address", broken("c", "ports/bare_metal/rv32_virt/board.hpp", "0x0200BFF8", "0x02000000"), "run FAILED"
 
 
-target_alarms = [target_binary, target_chip, target_pins, target_watchdog, target_call_depth, target_firmware, target_new_board]
+target_alarms = [target_binary, target_chip, target_pins, target_watchdog, target_call_depth, target_firmware,
+                 target_firmware_read, target_new_board]
 
 
 def board_proofs(folder):

@@ -52,11 +52,22 @@ endforeach()
 
 # Boards with a watchdog that the emulator has too.
 add_custom_target(watchdogs)
-foreach(board IN ITEMS lm3s6965evb mps2_an500)
+foreach(board IN ITEMS lm3s6965evb mps2_an386 mps2_an500)
   if(board IN_LIST fovea_boards)
     add_executable(watchdog_${board} watchdog.cpp)
     add_dependencies(watchdogs watchdog_${board})
     target_include_directories(watchdog_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(watchdog_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
+  endif()
+endforeach()
+
+# What reading codes costs, where a frame of QR codes has room.
+add_custom_target(code_costs)
+foreach(board IN ITEMS mps2_an386 mps2_an500)
+  if(board IN_LIST fovea_boards)
+    add_executable(code_costs_${board} code_costs.cpp)
+    add_dependencies(code_costs code_costs_${board})
+    target_include_directories(code_costs_${board} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/apps)
+    target_link_libraries(code_costs_${board} PRIVATE fovea_core fovea_board_${board} fovea_warnings)
   endif()
 endforeach()

@@ -4,7 +4,7 @@
 usage: chip.py LANE BOARD PROGRAM PLUGIN [--write [--because REASON]] [--golden FILE] [--tables FOLDER]
                [--seen FILE]
 
-The golden vectors must be those of tests/golden/golden.txt, and the instructions that operators take those of
+A cost has a line "= NAME" of the program, or "=N NAME" if it was counted in N parts. The golden vectors must be those of tests/golden/golden.txt, and the instructions that operators take those of
 tests/target/instructions/LANE.txt, to the last one. --write puts the counts as they are now into that file; where one
 has grown it wants the reason, and adds it to tests/target/instructions/grown.txt.
 """
@@ -12,6 +12,7 @@ import argparse
 import subprocess
 import sys
 import tempfile
+from itertools import accumulate
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
@@ -27,11 +28,14 @@ def run(board, program, plugin):
             sys.exit(f"chip: {program} on {board} ended with {done.returncode}\n{done.stdout[-2000:]}{done.stderr}")
         regions = [int(line) for line in counts.read_text().split()]
     lines = done.stdout.splitlines()
-    names = [line[2:] for line in lines if line.startswith("= ")]
-    if len(names) != len(regions) or not names:
-        sys.exit(f"chip: {len(names)} names of costs, but {len(regions)} were counted")
-    golden = [line for line in lines if not line.startswith(("= ", "# "))]
-    return golden, dict(zip(names, regions)), [line[2:] for line in lines if line.startswith("# ")]
+    names = [line[1:].split(" ", 1) for line in lines if line.startswith("=")]
+    counts = [int(count or 1) for count, _ in names]
+    if sum(counts) != len(regions) or not names:
+        sys.exit(f"chip: names of {sum(counts)} costs, but {len(regions)} were counted")
+    ends = list(accumulate(counts))
+    costs = {name: sum(regions[end - count:end]) for (_, name), count, end in zip(names, counts, ends)}
+    golden = [line for line in lines if not line.startswith(("=", "# "))]
+    return golden, costs, [line[2:] for line in lines if line.startswith("# ")]
 
 
 def read_table(path):
@@ -67,7 +71,7 @@ def main():
         if grown and not options.because:
             sys.exit("\n".join(f"{before[n]} -> {costs[n]} {n}" for n in grown) + "\nchip: these have grown: --because REASON")
         path.parent.mkdir(exist_ok=True)
-        path.write_text("# Instructions for a picture of 320x240.\n" + "".join(f"{costs[n]} {n}\n" for n in costs))
+        path.write_text("# Instructions for a picture of 320x240, or of the size in the name.\n" + "".join(f"{costs[n]} {n}\n" for n in costs))
         if grown:
             with (options.tables / "grown.txt").open("a") as file:
                 file.writelines(f"{options.lane}: {n} {before[n]} -> {costs[n]}: {options.because}\n" for n in grown)

@@ -237,6 +237,7 @@ def main():
         Path(sys.argv[2]).write_text("".join(f"{text}\r\n" for text in ALLOWED))
         return
     name, program, fovea, *rest = sys.argv[1:]
+    memory = check_memory(Path(program))
     with tempfile.TemporaryDirectory() as folder:
         board = Board(name, program, folder)
         try:
@@ -254,7 +255,7 @@ def main():
         finally:
             board.process.terminate()
     print(f"firmware_read: {name}: {state['reads']}: {reader.frames} frames as the tool reads them, {reader.faults} faults told; "
-          f"{check_memory(Path(program))}; {stack}")
+          f"{memory}; {stack}")
 
 
 if __name__ == "__main__":

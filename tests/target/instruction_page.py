@@ -12,10 +12,14 @@ LANES = {  # table: title of its column
 }
 
 
-def read(lane):
-    lines = (FOLDER / f"instructions/{lane}.txt").read_text().splitlines()
+def counts(table):
+    lines = (FOLDER / f"instructions/{table}.txt").read_text().splitlines()
     rows = [line.split(maxsplit=1) for line in lines if not line.startswith("#")]
-    return {name: int(count) / PIXELS for count, name in rows}
+    return {name: int(count) for count, name in rows}
+
+
+def read(lane):
+    return {name: count / PIXELS for name, count in counts(lane).items()}
 
 
 def memory():
@@ -78,8 +82,20 @@ program that has no other, and scratch for 320x240 (`docs/memory.md`, which also
     print("|---" * (len(LANES) + len(needs) + 1) + "|")
     bytes_of = memory()
     for name in tables["cortex-m0"]:
-        counts = [number(tables[lane][name]) for lane in LANES]
-        print(f"| {name} | " + " | ".join(counts + bytes_of.get(name, [""] * len(needs))) + " |")
+        cells = [number(tables[lane][name]) for lane in LANES]
+        print(f"| {name} | " + " | ".join(cells + bytes_of.get(name, [""] * len(needs))) + " |")
+    print("""
+## Codes in frames
+
+Millions of instructions for a frame, counted in the jobs of [firmware that reads codes](codes.md#on-a-chip) as it is compiled
+there, by -Os: all lines taken, those of bars read, every other one of them, or the whole frame. What the serial line takes is
+not in them. Frames have noise of 16 levels; the lines of noise have nothing else.
+""")
+    codes = {lane: counts(f"codes-{lane}") for lane in ("cortex-m4", "cortex-m7")}
+    print("| | " + " | ".join(LANES[lane] for lane in codes) + " |")
+    print("|---" * (len(codes) + 1) + "|")
+    for name in codes["cortex-m4"]:
+        print(f"| {name} | " + " | ".join(f"{table[name] / 1e6:.2f}" for table in codes.values()) + " |")
 
 
 if __name__ == "__main__":

@@ -69,6 +69,37 @@ TEST(BarStream, ReadsUpsideDownAndLightOnDark) {
     EXPECT_TRUE(answer.codes[1].inverted);
 }
 
+TEST(BarStream, RowsMayArriveInItsIdleScratch) {
+    Random random(3195);
+    BarPicture picture({420, 60});
+    draw_bars(picture, bars_of(Symbology::ean_13, "9780905705712"), {}, random);
+    const StreamAnswer wanted = stream(picture);
+    ASSERT_EQ(wanted.text, "9780905705712");
+    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(bar_stream_scratch(420)));
+    const Span<std::uint8_t> span(scratch.data(), static_cast<std::ptrdiff_t>(scratch.size()));
+    BarStream bars(420, {}, span);
+    const Span<std::uint8_t> idle = bars.idle_scratch();
+    ASSERT_EQ(idle.size(), 8 * 420);
+    EXPECT_GE(idle.begin(), span.begin());
+    EXPECT_LE(idle.end(), span.end());
+    for (int y = 0; y < 60; ++y) {
+        for (int x = 0; x < 8 * 420; ++x) idle[x] = static_cast<std::uint8_t>(x + y);
+        // At its end and at its beginning.
+        const std::ptrdiff_t first = y % 4 == 0 ? 7 * 420 : 0;
+        for (int x = 0; x < 420; ++x) idle[first + x] = picture.view()(x, y);
+        EXPECT_EQ(bars.take(idle.from(first).first(420)), Status::ok);
+    }
+    for (std::uint8_t& byte : idle) byte = 7;
+    std::uint8_t room[20];
+    CodeText text{Span<std::uint8_t>(room)};
+    List<Code, 4> codes;
+    EXPECT_EQ(bars.finish(text, codes), Status::ok);
+    EXPECT_EQ(std::string(room, room + text.size()), wanted.text);
+    ASSERT_EQ(codes.size(), 1);
+    EXPECT_EQ(codes[0].agreeing_lines, wanted.codes[0].agreeing_lines);
+    EXPECT_TRUE(BarStream(0, {}, span).idle_scratch().empty());
+}
+
 TEST(BarStream, FitsAChipAtVga) { static_assert(bar_stream_scratch(640) < 16 * 1024, "16 KiB at VGA"); }
 
 TEST(BarStream, FlatRowsHaveNothing) { EXPECT_EQ(stream(BarPicture({100, 10})).status, Status::not_found); }

@@ -139,7 +139,7 @@ struct QrAnswer {
 };
 inline QrAnswer read_scene(const QrScene& scene, const QrReadOptions& options = {}) {
     const std::vector<Gray8> pixels = scene.pixels();
-    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_qr_scratch(scene.size())));
+    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_qr_scratch(scene.size(), options)));
     std::vector<std::uint8_t> room(8000);
     CodeText text({room.data(), static_cast<std::ptrdiff_t>(room.size())});
     List<Code, 8> codes;

@@ -215,6 +215,67 @@ TEST(ReadQr, QuickIsOneThreshold) {
     EXPECT_EQ(only_text(read_scene(scene, quick)), "quick");
 }
 
+bool same_code(const Code& a, const Code& b) {
+    for (int i = 0; i < 4; ++i)
+        if (!(a.corners[i].x == b.corners[i].x && a.corners[i].y == b.corners[i].y)) return false;
+    return a.corrected_errors == b.corrected_errors && a.aim_digit == b.aim_digit &&
+           a.inverted == b.inverted && a.mirrored == b.mirrored && a.grade.overall == b.grade.overall &&
+           a.grade.modulation == b.grade.modulation &&
+           a.grade.unused_error_correction == b.grade.unused_error_correction;
+}
+
+TEST(ReadQr, FewerVersionsAreReadAsAllAreAndLargerOnesAreNot) {
+    QrReadOptions few;
+    few.effort = QrReadOptions::Effort::several;
+    for (int version = 1; version <= 8; ++version) {
+        QrScene scene(320, 240);
+        scene.draw(DrawnQr("few", of_version(version)), {160, 120, 4, version * 0.4, 0, 0, false});
+        scene.blur(0.6);
+        scene.add_noise(6, static_cast<unsigned>(version));
+        const QrAnswer all = read_scene(scene);
+        ASSERT_EQ(only_text(all), "few") << version;
+        few.largest_version = version;
+        const QrAnswer limited = read_scene(scene, few);
+        ASSERT_EQ(only_text(limited), "few") << version;
+        EXPECT_TRUE(same_code(all.codes[0], limited.codes[0])) << version;
+        if (version == 1) continue;
+        few.largest_version = version - 1;
+        EXPECT_EQ(read_scene(scene, few).status, Status::not_found) << version;
+    }
+}
+
+TEST(ReadQr, FewerVersionsAndThresholdsNeedLessScratch) {
+    QrReadOptions few;
+    few.effort = QrReadOptions::Effort::several;
+    few.largest_version = 6;
+    // With the frame, and 8 KiB for all else, below 100 KiB.
+    static_assert(read_qr_scratch({320, 240}) < 110000);
+    EXPECT_LT(read_qr_scratch({320, 240}, few), 100 * 1024 - 320 * 240 - 8 * 1024);
+    const Size large{3000, 2000};
+    few.largest_version = 40;
+    const std::int64_t every_version = read_qr_scratch(large, few);
+    few.largest_version = 1;
+    EXPECT_LT(read_qr_scratch(large, few), every_version);
+    few.effort = QrReadOptions::Effort::quick;
+    EXPECT_LE(read_qr_scratch(large, few), every_version);
+    // No image shows more modules than it has pixels, and four.
+    few = {};
+    const std::int64_t small = read_qr_scratch({41, 41});
+    few.largest_version = 7;
+    EXPECT_EQ(read_qr_scratch({41, 41}, few), small);
+}
+
+TEST(ReadQr, SeveralThresholdsReadWhatOneDoesNot) {
+    // Two grey levels that are nearer than blocks tell apart: the threshold of the whole image does.
+    QrScene scene(160, 150, 140);
+    scene.draw(DrawnQr("faint"), {80, 75, 4, 0, 0, 0, false}, 122);
+    QrReadOptions options;
+    options.effort = QrReadOptions::Effort::quick;
+    EXPECT_EQ(read_scene(scene, options).status, Status::not_found);
+    options.effort = QrReadOptions::Effort::several;
+    EXPECT_EQ(only_text(read_scene(scene, options)), "faint");
+}
+
 TEST(ReadQr, SaysWhatIsWrong) {
     QrScene scene(100, 100);
     scene.draw(DrawnQr("hello"), {50, 50, 4, 0, 0, 0, false});
@@ -229,6 +290,11 @@ TEST(ReadQr, SaysWhatIsWrong) {
     QrReadOptions none;
     none.max_codes = 0;
     EXPECT_EQ(read_qr(image, none, whole, text, codes), Status::bad_argument);
+    for (const int version : {0, 41}) {
+        QrReadOptions wrong;
+        wrong.largest_version = version;
+        EXPECT_EQ(read_qr(image, wrong, whole, text, codes), Status::bad_argument);
+    }
     EXPECT_EQ(read_qr(image, {}, whole.from(1), text, codes), Status::scratch_too_small);
     EXPECT_EQ(read_qr(image, {}, whole, text, codes), Status::buffer_too_small);
     EXPECT_EQ(text.size(), 0);
