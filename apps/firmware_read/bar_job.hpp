@@ -21,7 +21,7 @@ namespace fovea::apps {
 template <int Width>
 struct BarMemory {
     static constexpr int width = Width;
-    alignas(8) std::uint8_t scratch[bar_stream_scratch(Width)];
+    alignas(8) std::uint8_t scratch[static_cast<std::size_t>(bar_stream_scratch(Width))];
 };
 
 /// The job of FrameFirmware. It takes lines of 32 pixels and more; of two of them it looks at one.

@@ -33,9 +33,9 @@ struct QrMemory {
         options.largest_version = LargestVersion;
         return options;
     }
-    std::uint8_t frame[size.area()];
+    std::uint8_t frame[static_cast<std::size_t>(size.area())];
     /// Of the reader; until a frame is whole, of the packet that arrives.
-    alignas(8) std::uint8_t scratch[read_qr_scratch(size, options())];
+    alignas(8) std::uint8_t scratch[static_cast<std::size_t>(read_qr_scratch(size, options()))];
 };
 
 /// The job of FrameFirmware. A frame may have any sides that need no more memory than the largest one.
