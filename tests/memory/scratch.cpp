@@ -61,6 +61,9 @@ void print_catalogue() {
 int main() {
     LocateRule opened;
     opened.opening = 3;
+    QrReadOptions few;
+    few.effort = QrReadOptions::Effort::several;
+    few.largest_version = 6;
     const struct {
         const char* name;
         std::function<std::int64_t(Size)> bytes;
@@ -77,6 +80,8 @@ int main() {
         {"find_parts", [](Size size) { return find_parts_scratch(size, {}); }},
         {"find_parts after an opening", [&](Size size) { return find_parts_scratch(size, opened); }},
         {"read_qr", [](Size size) { return read_qr_scratch(size); }},
+        {"read_qr, versions 1 to 6, several thresholds",
+         [&](Size size) { return read_qr_scratch(size, few); }},
         {"read_data_matrix", [](Size size) { return read_data_matrix_scratch(size); }},
         {"measure_feature", [](Size size) { return measure_feature_scratch(size); }},
         {"gauge, 1 part", [](Size size) { return gauge_scratch(size, {}, 1); }},

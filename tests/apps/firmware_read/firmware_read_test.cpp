@@ -222,6 +222,22 @@ TEST(FirmwareRead, WithAListWithoutTextsNothingIsRead) {
     EXPECT_TRUE(board->is(false, false));
 }
 
+TEST(FirmwareRead, ALineMayBeWaitedFor) {
+    BarBoard board;
+    board->said();
+    const std::vector<Gray8> pixels = bars(Symbology::ean_13, "9780905705712");
+    board->send(apps::PacketKind::trigger);
+    board->send(apps::PacketKind::frame, {400, 40});
+    board->said();
+    for (int y = 0; y < 40; ++y) {
+        board->send(apps::PacketKind::line, {y},
+                    Bytes(pixels.data() + 400 * y, pixels.data() + 400 * y + 400));
+        board->send(apps::PacketKind::state);
+        EXPECT_EQ(has(board->said(), "9780905705712"), y == 39);
+    }
+    EXPECT_TRUE(board->is(true, false));
+}
+
 TEST(FirmwareRead, TakesFramesThatHaveRoom) {
     QrBoard qr_board;
     const auto answer = [](auto& board, int width, int height) {

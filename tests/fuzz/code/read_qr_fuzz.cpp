@@ -60,12 +60,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t coun
     const std::size_t left = count - sizeof input;
     for (std::size_t i = 0; i < pixels.size() && left > 0; ++i) pixels[i] = rest[i % left];
     if (input.version >= 128) draw(input, pixels, size);
-    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_qr_scratch(size)));
     std::vector<std::uint8_t> room(input.room);
     CodeText text({room.data(), static_cast<std::ptrdiff_t>(room.size())});
     List<Code, 2> codes;
     QrReadOptions options;
     if (input.effort % 4 == 0) options.effort = QrReadOptions::Effort::quick;
+    if (input.effort % 4 == 1) {
+        options.effort = QrReadOptions::Effort::several;
+        options.largest_version = 1 + input.effort / 4 % max_qr_version;
+    }
+    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_qr_scratch(size, options)));
     const Status status = read_qr(ImageView<const Gray8>(pixels.data(), size, size.width), options,
                                   {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}, text, codes);
     require(status != Status::ok || !codes.empty());
