@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A board that judges frames: a trigger, a frame line by line over the serial line, a verdict on two pins and a
-// line of JSON. Everything but the verdict of the last good frame leaves both pins inactive.
+// A board that judges frames: a trigger, a frame line by line over the serial line, a verdict on two pins and
+// a line of JSON. Everything but the verdict of the last good frame leaves both pins inactive.
 //
 //   idle --trigger--> armed --frame--> receiving --last line--> judged, idle
 //     any --error, patience over--> idle
@@ -49,13 +49,13 @@ struct FirmwarePorts {
 };
 
 /// A job is what is done with frames:
-///   Span<std::uint8_t> packet_room()          where packets arrive from now on; asked when a frame has begun too
-///   bool takes_recipes                        static: packets of kind 'R' come to load()
-///   const char* load(Span<const std::uint8_t>)   nullptr, or why the bytes are refused and all is as it was
-///   const char* missing()                     nullptr, or what it lacks before it can judge
-///   const char* begin(Size)                   nullptr, or why it takes no such frame
-///   void take_line(int y, Span<const std::uint8_t>)   the next line of width pixels
-///   const char* judge(Verdict&)               after the last line: nullptr, or why there is no verdict
+///   Span<std::uint8_t> packet_room()   where packets arrive; asked anew when a frame has begun
+///   bool takes_recipes                 static: packets of kind 'R' come to load()
+///   const char* load(bytes)            nullptr, or why the bytes are refused and all is as it was
+///   const char* missing()              nullptr, or what it lacks before it can judge
+///   const char* begin(Size)            nullptr, or why it takes no such frame
+///   void take_line(int y, pixels)      the next line, as wide as the frame
+///   const char* judge(Verdict&)        after the last line: nullptr, or why there is no verdict
 ///   void tell_judged(Line&), tell_state(Line&)   members of the object of JSON, ",name:value" each
 template <class Ports, class Job>
 class FrameFirmware {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A reader of codes on a board: wires the firmware to the board's own serial line, pins, clock and watchdog. With
-// FOVEA_WIDTH alone it reads bar codes from lines; with the others QR codes.
+// A reader of codes on a board: wires the firmware to the board's own serial line, pins, clock and watchdog.
+// With FOVEA_HEIGHT it reads QR codes in frames, without it bar codes in lines.
 #include <board.hpp>
 #include <fovea/bare_metal/restart.hpp>
 

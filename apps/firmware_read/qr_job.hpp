@@ -17,8 +17,8 @@
 
 namespace fovea::apps {
 
-/// A whole frame of Width x Height pixels, what reading codes up to a version takes, and room for the bytes of the
-/// texts of a frame: version 6 holds up to 322.
+/// A whole frame of Width x Height pixels, what reading codes up to a version takes, and how many bytes the
+/// texts of a frame may have: version 6 holds up to 322.
 template <int Width, int Height, int LargestVersion, std::size_t TextBytes>
 struct QrMemory {
     static constexpr Size size{Width, Height};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What reading the codes of a frame costs a chip: the jobs of firmware_read, with all lines of the frame, but without what
-// the serial line takes.
+// What reading the codes of a frame costs a chip: the jobs of firmware_read, with all lines of the frame, but
+// without what the serial line takes.
 //   =N NAME    a cost of N counts, in the order in which count_instructions.cpp has counted
 #include <cstdint>
 

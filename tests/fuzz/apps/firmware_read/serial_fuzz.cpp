@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Anything on the serial line of firmware_read, at any time: it goes on, never says OK and not OK at once, and has a
-// pin active only behind a frame that it judged. One board reads bars, the other QR codes.
+// Anything on the serial line of firmware_read, at any time: it goes on, never says OK and not OK at once,
+// and has a pin active only behind a frame that it judged. One board reads bars, the other QR codes.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
