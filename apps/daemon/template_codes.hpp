@@ -74,15 +74,17 @@ private:
 template <class Put>
 void put_code_text(Span<const char> text, const TemplateMarks& marks, Put put) {
     while (!text.empty()) {
-        const int disturbing = disturbing_bytes(text);
         const Span<const char> character = text.first(first_code_point(text).bytes);
+        bool escaped = disturbing_bytes(text) > 0;
+        // Of a character with a mark among its bytes all are: half of it would be no UTF-8.
+        for (const char letter : character) escaped = escaped || (marks.contains(letter) && letter != '\\');
         for (const char letter : character) {
-            if (disturbing > 0 || (marks.contains(letter) && letter != '\\')) {
+            if (escaped) {
                 put_escaped(letter, put);
-            } else {
-                if (letter == '\\') put('\\');
-                put(letter);
+                continue;
             }
+            if (letter == '\\') put('\\');
+            put(letter);
         }
         text = text.from(character.size());
     }

@@ -93,7 +93,7 @@ TEST(TemplateCodes, EscapeWhatWouldEndALineARecordOrAField) {
     Codes foreign;
     foreign.add("\xc3\xa9\xc2\x85\xe2\x80\xa8");
     EXPECT_EQ(foreign.filled("{code}"), "\xc3\xa9\\xc2\\x85\\xe2\\x80\\xa8");
-    EXPECT_EQ(foreign.filled("\\xa9{code}"), "\xa9\xc3\\xa9\\xc2\\x85\\xe2\\x80\\xa8")
+    EXPECT_EQ(foreign.filled("\\xa9{code}"), "\xa9\\xc3\\xa9\\xc2\\x85\\xe2\\x80\\xa8")
         << "a mark may be any byte";
 }
 
