@@ -35,7 +35,7 @@ struct CodeJobFile {
 /// Reads [codes], and if it stands alone what is in front of all tables. Stops at the first mistake.
 CodeJobFile read_code_job(const std::string& text);
 
-/// The keys of [codes] as text of a manual page.
+/// The keys of [codes] as a section of a manual page.
 std::string code_keys_manual();
 
 // ---- Implementation ---------------------------------------------------------------
@@ -313,7 +313,12 @@ private:
 inline CodeJobFile read_code_job(const std::string& text) { return detail::CodeJobReader(text).read(); }
 
 inline std::string code_keys_manual() {
-    std::string text;
+    std::string text =
+        ".SH \"JOBS THAT READ CODES\"\n"
+        "A job is a recipe, or has a table [codes], or both. What is in [codes] makes a picture OK or NG "
+        "beside what\n"
+        "the recipe does. Without a recipe the file begins with format = 1 and name = \"...\".\n"
+        ".B fovea read \\-\\-job\njudges pictures by it.\n";
     for (const CodeKey& key : code_keys()) {
         text += std::string(".TP\n.B ") + key.name + "\n" + key.text;
         if (key.type == CodeKeyType::whole)

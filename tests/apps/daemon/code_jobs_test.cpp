@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -82,6 +84,42 @@ TEST(RecipeFile, SaysWhoTakesATableOfCodes) {
     const RecipeFile file = read_recipe(both_job());
     EXPECT_NE(file.problem.find("[codes] is no part of a recipe; `fovead` and `fovea read --job` take it"),
               std::string::npos);
+}
+
+// ---- The page -----------------------------------------------------------------------------
+
+std::string page() {
+    std::ifstream file(std::string(FOVEA_SOURCE_DIR) + "/docs/daemon.md");
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(DocumentedCodeJob, IsAJobThatDoesWhatThePageSays) {
+    const std::string text = page();
+    const std::size_t first = text.find("format = 1\nname = \"label\"");
+    ASSERT_NE(first, std::string::npos);
+    Job job;
+    ASSERT_EQ(read_job(text.substr(first, text.find("```", first) - first), job), "");
+    const auto judge = [&](const std::string& ean, const std::string& serial) {
+        CodeScene scene({640, 480});
+        scene.draw(ean, Symbology::ean_13, 60, 20, 3, 80).draw(serial, Symbology::data_matrix, 80, 220, 5);
+        std::vector<std::uint8_t> scratch(static_cast<std::size_t>(judge_scratch({640, 480}, job)));
+        Judge judging;
+        Inspection inspection;
+        judging.judge(scene.view(), job, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())},
+                      OneWorker(), inspection);
+        return std::string(word_of(inspection.answer)) + inspection.reason;
+    };
+    EXPECT_EQ(judge("400638133393", "SN-DE0042x"), "OK");
+    EXPECT_EQ(judge("500638133393", "SN-DE0042x"), "NGwrong_code");
+    EXPECT_EQ(judge("400638133393", "SN-D10042x"), "NGwrong_code");
+}
+
+TEST(DocumentedCodeJob, HasEveryReasonOnThePage) {
+    const std::string text = page();
+    for (const char* reason :
+         {"no_code", "undecided_code", "wrong_code", "too_few_codes", "too_many_codes", "repeated_code",
+          "low_grade", "not_taught", "region_outside", "codes_too_long"})
+        EXPECT_NE(text.find(std::string("`") + reason + "`"), std::string::npos) << reason;
 }
 
 // ---- The daemon ---------------------------------------------------------------------------
