@@ -75,7 +75,8 @@ struct Inspection {
     }
 };
 
-/// Writes the text of a code as a JSON string. What only some readers take for an end of a line is escaped, too.
+/// Writes the text of a code as a JSON string. What only some readers take for the end of a line is escaped,
+/// too.
 inline void write_json_text(Span<const char> text, TextBuffer& line) {
     line.put('"');
     while (!text.empty()) {

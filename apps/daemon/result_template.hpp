@@ -42,8 +42,8 @@ public:
     static constexpr int most_pieces = 48;
     /// Fields with the text of the same code, so that no code is too long for a line of longest_line.
     static constexpr int most_long_fields = 3;
-    /// Bytes of the longest line there can be: texts of all codes with four letters a byte as often as they may
-    /// come, 48 fields of 64 letters, and the template itself.
+    /// Bytes of the longest line there can be: texts of all codes with four letters a byte as often as they
+    /// may come, 48 fields of 64 letters, and the template itself.
     static constexpr int longest_line =
         most_long_fields * 4 * CodeReadings::most_text + most_pieces * 64 + longest;
 

@@ -52,7 +52,8 @@ constexpr bool read_code_field(Span<const char> name, CodeField& field) {
     return name.empty();
 }
 
-/// What a template itself has between its fields, but for letters and digits: what a machine may part them by.
+/// What a template itself has between its fields, but for letters and digits: what a machine may part them
+/// by.
 class TemplateMarks {
 public:
     void add(char literal) {

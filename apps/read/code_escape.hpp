@@ -40,8 +40,8 @@ constexpr int hex_digit(char c) {
     return -1;
 }
 
-/// Reads what follows a backslash: n, r, t, xNN, or one of the letters that stand for themselves. at is behind
-/// it then. False if it is none of them.
+/// Reads what follows a backslash: n, r, t, xNN, or one of the letters that stand for themselves. at is
+/// behind it then. False if it is none of them.
 inline bool take_escape(const std::string& text, std::size_t& at, const std::string& themselves,
                         char& letter) {
     const char kind = at < text.size() ? text[at] : '\0';

@@ -36,8 +36,8 @@ class CodeReadings {
 public:
     /// One more than can be expected, so that it is seen.
     static constexpr int most = CodeJob::most_codes + 1;
-    /// Bytes of all texts of a picture in UTF-8, and as they stand in the codes: a line that tells of them has
-    /// room for so many, however many letters each takes there.
+    /// Bytes of all texts of a picture in UTF-8, and as they stand in the codes: a line that tells of them
+    /// has room for so many, however many letters each takes there.
     static constexpr int most_text = 768;
 
     CodeReadings() = default;
@@ -48,9 +48,9 @@ public:
     /// keeps(symbology, text) says of which codes; others are as if they were not there.
     ///
     /// Scratch  read_job_scratch() of what the job looks at
-    /// Errors   out_of_range for a picture that the job's region leaves; not_found for no code, undecided where
-    ///          one was seen and lines did not agree; buffer_too_small for more text than most_text, with none
-    ///          read; others as read_codes() has them
+    /// Errors   out_of_range for a picture that the job's region leaves; not_found for no code, undecided
+    ///          where one was seen and lines did not agree; buffer_too_small for more text than most_text, with
+    ///          none read; others as read_codes() has them
     template <class Keeps>
     Status read(ImageView<const Gray8> picture, const CodeJob& job, Span<std::uint8_t> scratch, Keeps keeps);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any bytes as a job: it is refused with a place in it and a line of text, or what it says of codes lies in its
-// ranges and answers for any text.
+// Any bytes as a job: it is refused with a place in it and a line of text, or what it says of codes lies in
+// its ranges and answers for any text.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
