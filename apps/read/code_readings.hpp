@@ -49,8 +49,8 @@ public:
     ///
     /// Scratch  read_job_scratch() of what the job looks at
     /// Errors   out_of_range for a picture that the job's region leaves; not_found for no code, undecided
-    ///          where one was seen and lines did not agree; buffer_too_small for more text than most_text, with
-    ///          none read; others as read_codes() has them
+    ///          where one was seen and lines did not agree; buffer_too_small for more text than most_text,
+    ///          with none read; others as read_codes() has them
     template <class Keeps>
     Status read(ImageView<const Gray8> picture, const CodeJob& job, Span<std::uint8_t> scratch, Keeps keeps);
 
