@@ -229,6 +229,7 @@ TEST(CodeJobs, LetNoCodeForgeARecord) {
     EXPECT_EQ(bench.triggered(), "1;OK;fine;x\\x3b\\r\\n9\\x3bOK\\x3bfine\\x3bA7\\r\\n\\x03\\x1d\\\\\r\n");
     const auto json = test::parse_json(bench.last_event("result"));
     ASSERT_TRUE(json.has_value());
+    ASSERT_EQ((*json)["codes"].items.size(), 1u);
     EXPECT_EQ((*json)["codes"].items[0]["text"].text, forged);
 }
 

@@ -255,7 +255,11 @@ TEST(Fovead, ReadsCodesWithAnyNumberOfThreads) {
             const bool good = k % 7 != 2 && k % 7 != 5;
             EXPECT_EQ(said[k]["verdict"].text, good ? "OK" : "NG");
             EXPECT_EQ(said[k]["why"].text, good ? "" : "wrong_code");
-            EXPECT_EQ(said[k]["codes"].items.at(0)["text"].text, texts[k % 7]);
+            if (said[k]["codes"].items.empty()) {
+                ADD_FAILURE() << "no code in picture " << k % 7;
+                break;
+            }
+            EXPECT_EQ(said[k]["codes"].items[0]["text"].text, texts[k % 7]);
         }
         return program.printed.substr(program.printed.find("\"result\""));
     };
