@@ -64,7 +64,8 @@ inline std::string shortened(const std::string& text, std::size_t most) {
     return text.substr(0, most) + "...";
 }
 
-/// A text as a JSON string with its quotes. What is not UTF-8 becomes the replacement character.
+/// A text as a JSON string with its quotes. What is not UTF-8 becomes the replacement character. What some
+/// readers take for the end of a line, though JSON does not, is escaped with the control characters.
 inline std::string json_string(const std::string& text) {
     static const char* digits = "0123456789abcdef";
     std::string json = "\"";
@@ -72,10 +73,9 @@ inline std::string json_string(const std::string& text) {
         const CodePoint read = first_code_point(rest);
         if (is_no_utf8(read, rest)) {
             json += "\\ufffd";
-        } else if (read.value < 0x20 || read.value == 0x7f) {
-            json += "\\u00";
-            json += digits[read.value >> 4];
-            json += digits[read.value & 15];
+        } else if (is_control(read.value) || read.value == 0x2028 || read.value == 0x2029) {
+            json += "\\u";
+            for (int shift = 12; shift >= 0; shift -= 4) json += digits[read.value >> shift & 15];
         } else {
             if (rest[0] == '"' || rest[0] == '\\') json += '\\';
             json += string_of(rest.first(read.bytes));

@@ -14,7 +14,8 @@
 //     STAT RESET        counts from 0
 //     LAST?             the last result again
 //     RDY?              OK 1 if a trigger would be answered, OK 0 if not
-//     TEACH name        keeps the next frame as a sample of that name, in the folder of [teach]
+//     TEACH name        keeps the next frame as a sample of that name, in the folder of [teach]; if the job
+//                       has taught = true, its codes are those that are allowed from then on
 //     VER?              OK fovead 0.1.0
 //
 // Replies are "OK ..." or "ERR number reason". A silent device replies to what asks (?), and to errors.
@@ -55,7 +56,7 @@ enum class CommandError : std::uint8_t {
     not_ready = 30,    ///< the camera is not in order, or there is no job
     busy = 31,         ///< another trigger is being answered
     nothing_yet = 40,  ///< no result yet
-    keeps_none = 41,   ///< there is no folder for samples
+    keeps_none = 41,   ///< there is no folder for samples, and the job takes no codes
     failed = 50,       ///< it was tried
 };
 
@@ -70,7 +71,7 @@ constexpr const char* describe(CommandError error) {
         case CommandError::not_ready: return "not ready";
         case CommandError::busy: return "busy";
         case CommandError::nothing_yet: return "no result yet";
-        case CommandError::keeps_none: return "[teach] has no folder";
+        case CommandError::keeps_none: return "[teach] has no folder, and the job no taught = true";
         case CommandError::failed: return "failed";
     }
     return "";

@@ -33,38 +33,11 @@
 #include <daemon/tally.hpp>
 #include <daemon/text_buffer.hpp>
 #include <daemon/verdict_lines.hpp>
+#include <daemon/world.hpp>
 
 namespace fovea::apps {
 
-/// An edge on the trigger's line.
-struct TriggerEdge {
-    std::int64_t time_us = 0;
-    /// Edges in front of it that the kernel had no room for.
-    std::uint32_t lost = 0;
-};
-
-/// World is what the daemon is connected to:
-///   std::int64_t now_us()
-///   camera()                      a CameraKeeper
-///   const char* camera_fault(), camera_advice(), link_fault()
-///                                 of their last trouble
-///   std::int64_t frame_interval_us(), std::uint64_t missed_frames()
-///                                 of the camera
-///   Status gray(const hal::FrameInfo&, ImageView<const Gray8>&)
-///                                 the picture of a frame, good until the next
-///   ImageVerdict quality(ImageView<const Gray8>)
-///                                 whether a picture can be judged at all
-///   link()                        a SerialLink, which may have no port
-///   lines()                       VerdictLines
-///   bool next_edge(TriggerEdge&)  edges of the trigger's line that have not been taken
-///   Status trigger_status()       ok as long as these are heard
-///   void print(Span<const char>)  a line of JSON, without its end
-///   void keep_failure(ImageView<const Gray8>, const Inspection&)
-///   bool take_failure_event(FailureRingEvent&)
-///   Status keep_sample(Span<const char> name, ImageView<const Gray8>, Fault&)
-///   workers()                     who work on a picture, see OneWorker
-///   Span<std::uint8_t> scratch()  for judge_scratch() of every job and so many workers
-///   const JobList& jobs()
+/// World is what world.hpp says.
 template <class World>
 class Daemon {
 public:
@@ -109,6 +82,12 @@ private:
     void take_commands();
     void obey(const SerialCommand& command);
     CommandError change_job(const SerialCommand& command, TextBuffer& text);
+    CommandError begin_teach(const SerialCommand& command);
+    void teach(ImageView<const Gray8> picture);
+    /// TEACH says which codes the job allows.
+    bool takes_codes() const {
+        return job_ != 0 && world_.jobs()[job_].reads && world_.jobs()[job_].codes.taught;
+    }
     void reply(const TextBuffer& text);
     void take_edges();
     void begin_trigger(std::int64_t time_us);
@@ -134,7 +113,8 @@ private:
     bool has_last_ = false;
     Text<longest_job_name> teach_;
     char line_room_[16384];
-    char reply_room_[4096];
+    /// For a result, and what LAST? has around it.
+    char reply_room_[16384 + 64];
     Frame frame_;
 };
 
@@ -144,6 +124,7 @@ template <class World>
 bool Daemon<World>::take_job(int number) {
     if (number < 1 || number > world_.jobs().size()) return false;
     job_ = number;
+    judge_.forget();
     return true;
 }
 
@@ -199,14 +180,7 @@ void Daemon<World>::obey(const SerialCommand& command) {
                     error = CommandError::nothing_yet;
                 break;
             case CommandVerb::ask_ready: text.text(ready() && !waiting_ ? " 1" : " 0"); break;
-            case CommandVerb::teach:
-                if (!options_.samples)
-                    error = CommandError::keeps_none;
-                else if (ready())
-                    teach_ = Text<longest_job_name>().add(command.name);
-                else
-                    error = CommandError::not_ready;
-                break;
+            case CommandVerb::teach: error = begin_teach(command); break;
             case CommandVerb::ask_version: text.text(" fovead ").text(options_.version); break;
         }
     if (error != CommandError::none) {
@@ -223,6 +197,16 @@ CommandError Daemon<World>::change_job(const SerialCommand& command, TextBuffer&
     if (!take_job(number)) return CommandError::job_refused;
     add_job(world_.jobs(), job_, text);
     events_.tell_job(letters_of(world_.jobs()[job_].name.c_str()));
+    return CommandError::none;
+}
+
+template <class World>
+CommandError Daemon<World>::begin_teach(const SerialCommand& command) {
+    if (!options_.samples && !takes_codes()) return CommandError::keeps_none;
+    if (!ready()) return CommandError::not_ready;
+    teach_ = Text<longest_job_name>().add(command.name);
+    // At once, so that no verdict is by codes that are to be replaced, whatever becomes of the next frame.
+    judge_.forget_taught();
     return CommandError::none;
 }
 
@@ -276,6 +260,21 @@ void Daemon<World>::take_frame() {
 }
 
 template <class World>
+void Daemon<World>::teach(ImageView<const Gray8> picture) {
+    const Span<const char> name{teach_.c_str(), teach_.size()};
+    if (options_.samples) {
+        linux_port::Fault fault;
+        const Status kept = world_.keep_sample(name, picture, fault);
+        events_.tell_sample(name, kept, fault);
+    }
+    if (takes_codes()) {
+        const char* const reason = judge_.teach(picture, world_.jobs()[job_], world_.scratch());
+        events_.tell_taught(name, judge_.taught(), reason);
+    }
+    teach_.clear();
+}
+
+template <class World>
 void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
     ImageView<const Gray8> picture;
     if (world_.gray(info, picture) != Status::ok) {
@@ -284,10 +283,7 @@ void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
         return;
     }
     if (!teach_.empty()) {
-        linux_port::Fault fault;
-        const Status kept = world_.keep_sample({teach_.c_str(), teach_.size()}, picture, fault);
-        events_.tell_sample({teach_.c_str(), teach_.size()}, kept, fault);
-        teach_.clear();
+        teach(picture);
         if (options_.source != TriggerSource::free && !waiting_) return;
     }
     if (!waiting_) {
@@ -296,17 +292,16 @@ void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
         world_.lines().begin();
     }
     const std::int64_t begin_us = world_.now_us();
+    inspection_.clear();
     inspection_.has_frame = true;
     inspection_.frame = info.sequence;
     inspection_.age_us = begin_us - info.time_us;
-    inspection_.parts = inspection_.values = 0;
-    inspection_.feature = {};
     const ImageVerdict quality = world_.quality(picture);
     if (quality != ImageVerdict::fine) {
         inspection_.answer = Answer::error;
         inspection_.reason = word_of(quality);
     } else {
-        judge_.judge(picture, world_.jobs()[job_].recipe, world_.scratch(), world_.workers(), inspection_);
+        judge_.judge(picture, world_.jobs()[job_], world_.scratch(), world_.workers(), inspection_);
     }
     inspection_.judged_us = world_.now_us() - begin_us;
     answer(&picture);
@@ -315,12 +310,9 @@ void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
 
 template <class World>
 void Daemon<World>::answer_error(const char* reason) {
+    inspection_.clear();
     inspection_.answer = Answer::error;
     inspection_.reason = reason;
-    inspection_.feature = {};
-    inspection_.has_frame = false;
-    inspection_.parts = inspection_.values = 0;
-    inspection_.judged_us = 0;
     answer(nullptr);
 }
 
@@ -337,6 +329,7 @@ void Daemon<World>::answer(const ImageView<const Gray8>* picture) {
     inspection_.job_number = job_;
     inspection_.job = job_ == 0 ? Span<const char>() : letters_of(world_.jobs()[job_].name.c_str());
     inspection_.job_crc = job_ == 0 ? 0 : world_.jobs()[job_].crc;
+    inspection_.reads_codes = job_ != 0 && world_.jobs()[job_].reads;
     has_last_ = true;
     tally_.count(inspection_.answer);
     if (inspection_.answer == Answer::ok || inspection_.answer == Answer::not_ok)

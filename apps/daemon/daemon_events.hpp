@@ -14,6 +14,7 @@
 #include <daemon/camera_keeper.hpp>
 #include <daemon/failure_ring.hpp>
 #include <daemon/image_quality.hpp>
+#include <daemon/inspection.hpp>
 #include <daemon/text_buffer.hpp>
 
 namespace fovea::apps {
@@ -103,6 +104,13 @@ public:
         if (advice[0] != '\0') line_.text(",\"try\":").json(letters_of(advice));
         end();
     }
+    /// Which codes are allowed from now on; none, and the reason, if none could be taken.
+    void tell_taught(Span<const char> name, Span<const CodeReading> codes, const char* reason) {
+        begin(reason[0] == '\0' ? "taught" : "not_taught").text(",\"name\":").json(name);
+        if (reason[0] != '\0') line_.text(",\"reason\":\"").text(reason).put('"');
+        write_json_codes(codes, line_.text(",\"codes\":"));
+        end();
+    }
     void tell_job(Span<const char> name) {
         begin("job").text(",\"job\":").json(name);
         end();
@@ -119,7 +127,8 @@ private:
     }
 
     World& world_;
-    char room_[1024];
+    /// For the codes that were taught; everything else is shorter than 1 kB.
+    char room_[12288];
     TextBuffer line_{Span<char>(room_)};
     ImageTrouble image_;
     bool lines_lost_ = false;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fovea/base/status.hpp>
+#include <fovea/image/geometry.hpp>
 #include <fovea/linux/fault.hpp>
 #include <fovea/linux/file_storage.hpp>
 #include <fovea/linux/folder.hpp>
@@ -78,6 +79,11 @@ inline DaemonFiles read_daemon_files(const std::string& path) {
         files.no_file_left = starved(storage.fault());
         return files;
     }
+    const Size picture{static_cast<int>(files.settings.camera.width),
+                       static_cast<int>(files.settings.camera.height)};
+    // Of a camera that is asked for its size no more is known here.
+    if (picture.width > 0 && picture.height > 0) files.problem = files.jobs.fit(folder, picture);
+    if (!files.problem.empty()) return files;
     const Text<63>& start = files.settings.jobs.start;
     files.job = start.empty() ? 1 : files.jobs.find({start.c_str(), start.size()}, 0);
     if (files.job == 0) files.problem = path + ": [jobs] start: no job " + start.c_str() + " in " + folder;

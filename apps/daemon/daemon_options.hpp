@@ -7,6 +7,7 @@
 #include <string>
 
 #include <common/text.hpp>
+#include <daemon/result_presets.hpp>
 #include <daemon/result_template.hpp>
 #include <daemon/settings.hpp>
 #include <daemon/text_buffer.hpp>

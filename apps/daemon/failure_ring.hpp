@@ -78,8 +78,8 @@ private:
 template <class System = linux_port::Kernel>
 class FailureRing {
 public:
-    /// The longest text beside a picture.
-    static constexpr int most_text = 4096;
+    /// The longest text beside a picture: that of a result.
+    static constexpr int most_text = 16384;
 
     explicit FailureRing(System system = {}) : keeper_(system), writer_(keeper_, system) {}
 

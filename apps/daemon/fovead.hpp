@@ -26,6 +26,7 @@
 #include <daemon/settings.hpp>
 #include <daemon/settings_reader.hpp>
 #include <daemon/status_line.hpp>
+#include <read/code_job_reader.hpp>
 
 namespace fovea::apps {
 
@@ -231,7 +232,7 @@ int fovead(const std::vector<std::string>& words, Io& io, System system,
         if (word == "--help" || word == "-h") return io.print(fovead_help()), daemon_ok;
         if (word == "--version") return io.print(std::string("fovead ") + version + "\n"), daemon_ok;
         if (word == "--sample-config") return io.print(sample_settings()), daemon_ok;
-        if (word == "--settings-manual") return io.print(settings_manual()), daemon_ok;
+        if (word == "--settings-manual") return io.print(settings_manual() + code_keys_manual()), daemon_ok;
         if (word == "--check-config") {
             check = true;
         } else if (word == "--make-safe") {

@@ -7,12 +7,17 @@
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/code/symbology.hpp>
 #include <fovea/decision/tolerance.hpp>
+#include <fovea/draw/utf8.hpp>
 #include <fovea/number/decimal.hpp>
 
+#include <common/decimals.hpp>
 #include <common/verdicts.hpp>
 #include <daemon/tally.hpp>
 #include <daemon/text_buffer.hpp>
+#include <read/code_escape.hpp>
+#include <read/code_readings.hpp>
 
 namespace fovea::apps {
 
@@ -54,7 +59,70 @@ struct Inspection {
     /// Of the part that is worst; the first of equals.
     int values = 0;
     InspectedValue value[most_values];
+
+    /// The job looks for codes; these were read.
+    bool reads_codes = false;
+    Span<const CodeReading> codes;
+
+    /// Nothing is known of a picture yet.
+    void clear() {
+        has_frame = false;
+        reason = "";
+        feature = {};
+        parts = values = 0;
+        codes = {};
+        judged_us = 0;
+    }
 };
+
+/// Writes the text of a code as a JSON string. What only some readers take for the end of a line is escaped,
+/// too.
+inline void write_json_text(Span<const char> text, TextBuffer& line) {
+    line.put('"');
+    while (!text.empty()) {
+        const CodePoint read = first_code_point(text);
+        if (disturbing_bytes(text) > 0)
+            line.text("\\u").hex(read.value, 4);
+        else if (text[0] == '"' || text[0] == '\\')
+            line.put('\\').put(text[0]);
+        else
+            line.text(text.first(read.bytes));
+        text = text.from(read.bytes);
+    }
+    line.put('"');
+}
+
+/// The codes as an array of JSON, as many bytes as texts of CodeReadings::most_text take at most: 9 kB.
+inline void write_json_codes(Span<const CodeReading> codes, TextBuffer& line) {
+    line.put('[');
+    for (const CodeReading& reading : codes) {
+        const Code& code = reading.code;
+        line.text(&reading == codes.begin() ? "{\"symbology\":\"" : ",{\"symbology\":\"")
+            .text(name(code.symbology));
+        write_json_text(reading.text, line.text("\",\"text\":"));
+        line.text(",\"bytes_hex\":\"");
+        for (const std::uint8_t byte : reading.bytes) line.hex(byte, 2);
+        line.text("\",\"aim\":\"]")
+            .put(aim_letter(code.symbology))
+            .put(code.aim_digit)
+            .text("\",\"corners_px\":[");
+        for (int k = 0; k < 4; ++k) {
+            line.text(k == 0 ? "[" : ",[").decimal(decimal_of(code.corners[k].x), 2);
+            line.put(',').decimal(decimal_of(code.corners[k].y), 2).put(']');
+        }
+        line.text("],\"grade\":");
+        if (code.grade.overall < 0)
+            line.text("null");
+        else
+            line.put('"').put("FDCBA"[code.grade.overall]).put('"');
+        line.text(",\"why\":");
+        if (reading.fault[0] == '\0')
+            line.text("null}");
+        else
+            line.put('"').text(reading.fault).text("\"}");
+    }
+    line.put(']');
+}
 
 /// Writes a result as a line of JSON without its end, keys in a fixed order. Numbers carry their unit in the
 /// key; a value is in the unit of its job.
@@ -90,7 +158,9 @@ inline void write_json(const Inspection& inspection, TextBuffer& line) {
             line.text("null,\"reason\":\"").text(describe(value.status)).text("\"");
         line.text(",\"verdict\":\"").text(word_of(value.verdict)).text("\"}");
     }
-    line.text("],\"us\":{\"answer\":").number(inspection.took_us);
+    line.put(']');
+    if (inspection.reads_codes) write_json_codes(inspection.codes, line.text(",\"codes\":"));
+    line.text(",\"us\":{\"answer\":").number(inspection.took_us);
     line.text(",\"judge\":").number(inspection.judged_us).text("}}");
 }
 

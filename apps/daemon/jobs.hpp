@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Jobs: the recipes of a folder, all read before the first frame, so that another is taken between two
-// frames.
+// Jobs: what the files of a folder say of parts and of codes, all read before the first frame, so that
+// another is taken between two frames.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,15 @@
 #include <fovea/base/crc32.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/codec/toml.hpp>
 #include <fovea/decision/recipe.hpp>
+#include <fovea/image/geometry.hpp>
 
 #include <common/io.hpp>
 #include <common/text.hpp>
 #include <daemon/settings.hpp>
 #include <gauge/recipe_reader.hpp>
+#include <read/code_job_reader.hpp>
 
 namespace fovea::apps {
 
@@ -26,8 +29,29 @@ struct Job {
     std::string name;
     /// Of the bytes of its file.
     std::uint32_t crc = 0;
+    /// It measures parts, by the recipe.
+    bool gauges = true;
     Recipe recipe;
+    /// It reads codes.
+    bool reads = false;
+    CodeJob codes;
 };
+
+/// "" if the text of a job is good, or "line:column: what is wrong".
+inline std::string read_job(const std::string& text, Job& job) {
+    const auto at = [](TextPlace place, const std::string& problem) {
+        return std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + problem;
+    };
+    const CodeJobFile codes = read_code_job(text);
+    job.reads = codes.found;
+    job.gauges = !codes.found || !codes.alone;
+    if (!codes.problem.empty()) return at(codes.place, codes.problem);
+    job.codes = codes.job;
+    if (!job.gauges) return "";
+    const RecipeFile file = read_recipe(codes.found ? codes.recipe : text);
+    job.recipe = file.recipe;
+    return file.problem.empty() ? "" : at(file.place, file.problem);
+}
 
 /// The jobs in the order of their names; their numbers count from 1.
 class JobList {
@@ -46,13 +70,24 @@ public:
             const std::string path = folder + "/" + name + ".toml";
             const Result<Span<const std::uint8_t>> text = storage.load(path.c_str());
             if (!text) return file_problem(path, text.status(), storage);
-            const RecipeFile file = read_recipe(std::string(text->begin(), text->end()));
-            if (!file.problem.empty())
-                return path + ":" + std::to_string(file.place.line) + ":" +
-                       std::to_string(file.place.column) + ": " + file.problem;
-            fresh.push_back({name, crc32(*text), file.recipe});
+            Job job;
+            job.name = name;
+            job.crc = crc32(*text);
+            const std::string problem = read_job(std::string(text->begin(), text->end()), job);
+            if (!problem.empty()) return path + ":" + problem;
+            fresh.push_back(std::move(job));
         }
         jobs_ = std::move(fresh);
+        return "";
+    }
+
+    /// Empty if pictures of that size have what all jobs look at; otherwise the first that they have not.
+    std::string fit(const std::string& folder, Size picture) const {
+        for (const Job& job : jobs_)
+            if (job.reads && !job.codes.inside(picture))
+                return folder + "/" + job.name + ".toml:" + std::to_string(job.codes.region_place.line) +
+                       ":" + std::to_string(job.codes.region_place.column) + ": region: the picture has " +
+                       std::to_string(picture.width) + " x " + std::to_string(picture.height) + " px";
         return "";
     }
 

@@ -12,28 +12,72 @@
 #include <fovea/decision/gauge.hpp>
 #include <fovea/decision/recipe.hpp>
 #include <fovea/image/image_view.hpp>
+#include <fovea/number/integer.hpp>
 
 #include <daemon/inspection.hpp>
+#include <daemon/jobs.hpp>
+#include <read/code_judge.hpp>
 
 namespace fovea::apps {
 
 /// Room for the results of a picture.
 inline constexpr int judge_parts = 64;
 
-/// Bytes of scratch that judging pictures of that size by a recipe needs, with so many workers.
-constexpr std::int64_t judge_scratch(Size size, RecipeView recipe, int workers = 1) {
-    return gauge_scratch(size, recipe.locate, judge_parts, workers);
+/// Bytes of scratch that judging pictures of that size by a job needs, with so many workers.
+inline std::int64_t judge_scratch(Size size, const Job& job, int workers = 1) {
+    const std::int64_t parts =
+        job.gauges ? gauge_scratch(size, RecipeView(job.recipe).locate, judge_parts, workers) : 0;
+    return maximum(parts, job.reads ? read_job_scratch(job.codes.looked_at(size)) : 0);
 }
 
 class Judge {
 public:
-    /// Judges a picture; the answer, the reason and the values of the worst part go into the inspection.
+    /// Judges a picture: its parts, then its codes. The answer, the reason, the values of the worst part and
+    /// the codes go into the inspection. Parts are measured by all workers, codes are read by one.
     template <class Workers>
-    void judge(ImageView<const Gray8> picture, RecipeView recipe, Span<std::uint8_t> scratch,
+    void judge(ImageView<const Gray8> picture, const Job& job, Span<std::uint8_t> scratch,
                const Workers& workers, Inspection& inspection) {
+        inspection.answer = Answer::ok;
+        inspection.reason = "";
+        inspection.feature = {};
+        if (job.gauges) judge_parts_of(picture, job.recipe, scratch, workers, inspection);
+        if (!job.reads) return;
+        const CodesVerdict codes = codes_.judge(picture, job.codes, scratch);
+        inspection.codes = codes_.codes();
+        // What is not OK says more than what could not be judged; of the same the parts were first.
+        if (rank(codes.verdict) > rank(inspection.answer)) {
+            inspection.answer = answer_of(codes.verdict);
+            inspection.reason = codes.reason;
+            inspection.feature = {};
+        }
+        if (inspection.answer == Answer::ok) codes_.remember();
+    }
+
+    /// Takes the codes of a picture as those that a job allows. "" if it could, or a word for why not.
+    const char* teach(ImageView<const Gray8> picture, const Job& job, Span<std::uint8_t> scratch) {
+        return codes_.teach(picture, job.codes, scratch).reason;
+    }
+    Span<const CodeReading> taught() const { return codes_.taught(); }
+    void forget_taught() { codes_.forget_taught(); }
+    /// Another job begins.
+    void forget() { codes_.forget(); }
+
+private:
+    static int rank(Verdict verdict) {
+        return verdict == Verdict::ok ? 0 : verdict == Verdict::unmeasured ? 1 : 2;
+    }
+    static int rank(Answer answer) { return answer == Answer::ok ? 0 : answer == Answer::error ? 1 : 2; }
+    static Answer answer_of(Verdict verdict) {
+        return verdict == Verdict::ok       ? Answer::ok
+               : verdict == Verdict::not_ok ? Answer::not_ok
+                                            : Answer::error;
+    }
+
+    template <class Workers>
+    void judge_parts_of(ImageView<const Gray8> picture, RecipeView recipe, Span<std::uint8_t> scratch,
+                        const Workers& workers, Inspection& inspection) {
         parts_.clear();
         inspection.answer = Answer::error;
-        inspection.feature = {};
         const Status status = gauge(picture, recipe, scratch, parts_.view(), workers);
         inspection.parts = parts_.size();
         if (status != Status::ok) {
@@ -50,16 +94,9 @@ public:
             if (rank(parts_[k].verdict) > rank(parts_[worst].verdict)) worst = k;
             all = combine(all, parts_[k].verdict);
         }
-        inspection.answer = all == Verdict::ok       ? Answer::ok
-                            : all == Verdict::not_ok ? Answer::not_ok
-                                                     : Answer::error;
+        inspection.answer = answer_of(all);
         inspection.reason = all == Verdict::ok ? "" : "unmeasured";
         take_values(parts_[worst], recipe, inspection);
-    }
-
-private:
-    static int rank(Verdict verdict) {
-        return verdict == Verdict::ok ? 0 : verdict == Verdict::unmeasured ? 1 : 2;
     }
 
     static void take_values(const PartResult& part, RecipeView recipe, Inspection& inspection) {
@@ -83,6 +120,7 @@ private:
     }
 
     List<PartResult, judge_parts> parts_;
+    CodeJudge codes_;
 };
 
 }  // namespace fovea::apps

@@ -340,7 +340,7 @@ void LinuxWorld<TheOpening>::lay_out() {
         gray = std::max(gray, gray_frame_scratch(static_cast<hal::PixelFormat>(k), size, count));
     std::int64_t judge = image_quality_scratch(count);
     for (int number = 1; number <= jobs_.size(); ++number)
-        judge = std::max(judge, judge_scratch(size, jobs_[number].recipe, count));
+        judge = std::max(judge, judge_scratch(size, jobs_[number], count));
     gray_memory_.resize(static_cast<std::size_t>(gray));
     judge_memory_.resize(static_cast<std::size_t>(judge));
     sample_memory_.resize(static_cast<std::size_t>(size.area() + 64));

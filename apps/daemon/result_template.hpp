@@ -10,8 +10,13 @@
 //
 // Fields: seq, verdict (OK NG ERROR), pass (P F E), why, job, job.number, parts, frame, age_us, took_us,
 // triggers, ok, ng, error, missed; f.NAME the value of a feature, which is a word here, f.NAME.milli its
-// thousandths, a whole number, f.NAME.verdict (ok low high unmeasured). A number that is wider than its width
-// becomes asterisks, so that fields that follow stay in their places; what has no value, question marks.
+// thousandths, a whole number, f.NAME.verdict (ok low high unmeasured); codes how many codes were read, code
+// the text of the first, code.hex its bytes, code.symbology, code.aim, code.grade (A B C D F -), and code.2,
+// code.2.hex and so on of the others. A number or a code that is wider than its width becomes asterisks, so
+// that fields that follow stay in their places; what has no value, question marks.
+//
+// In the text of a code all that ends or disturbs a line is written \n, \r, \t or \xNN, and so is each byte
+// that stands in the template itself and is no letter or digit: a separator in a code parts nothing. \ is \\.
 #pragma once
 
 #include <cstddef>
@@ -22,36 +27,25 @@
 #include <fovea/number/integer.hpp>
 
 #include <daemon/inspection.hpp>
+#include <daemon/record_checks.hpp>
 #include <daemon/tally.hpp>
+#include <daemon/template_codes.hpp>
 #include <daemon/text_buffer.hpp>
+#include <read/code_escape.hpp>
 
 namespace fovea::apps {
-
-/// Templates that have a name of their own; nullptr for any other name.
-constexpr const char* result_preset(Span<const char> name) {
-    struct Preset {
-        const char* name;
-        const char* text;
-    };
-    constexpr Preset presets[] = {
-        {"plain", "{verdict}\\r\\n"},
-        {"pass-fail", "{pass}\\r\\n"},
-        {"stx-etx", "\\x02{seq:6};{verdict}\\x03\\r\\n"},
-        {"csv", "{seq},{job},{verdict},{parts},{why}\\r\\n"},
-    };
-    for (const Preset& preset : presets) {
-        std::ptrdiff_t k = 0;
-        while (k < name.size() && preset.name[k] != '\0' && name[k] == preset.name[k]) ++k;
-        if (k == name.size() && preset.name[k] == '\0') return preset.text;
-    }
-    return nullptr;
-}
 
 /// A template that was read once, and is filled in for every result. Holds no memory but itself.
 class ResultTemplate {
 public:
     static constexpr int longest = 256;
     static constexpr int most_pieces = 48;
+    /// Fields with the text of the same code, so that no code is too long for a line of longest_line.
+    static constexpr int most_long_fields = 3;
+    /// Bytes of the longest line there can be: texts of all codes with four letters a byte as often as they
+    /// may come, 48 fields of 64 letters, and the template itself.
+    static constexpr int longest_line =
+        most_long_fields * 4 * CodeReadings::most_text + most_pieces * 64 + longest;
 
     /// Reads a template; after an error it is as it was, and problem() and place() say what and at which
     /// letter.
@@ -83,6 +77,8 @@ private:
         not_ok,
         error,
         missed,
+        codes,
+        code,
         feature,
         feature_milli,
         feature_verdict,
@@ -98,6 +94,7 @@ private:
         std::int16_t otherwise_length = 0;
         std::uint8_t width = 0;
         bool sign = false;
+        CodeField code;
     };
 
     Status fail(Status status, const char* problem, std::ptrdiff_t at) {
@@ -118,45 +115,21 @@ private:
     static void write_number(std::int64_t value, const Piece& piece, TextBuffer& line);
     static void write_word(Span<const char> word, const Piece& piece, TextBuffer& line);
     void write_feature(const Inspection& inspection, const Piece& piece, TextBuffer& line) const;
+    void write_code(const Inspection& inspection, const Piece& piece, TextBuffer& line) const;
     void write_otherwise(const Piece& piece, TextBuffer& line) const;
 
     char letters_[longest] = {};
     std::int16_t letters_used_ = 0;
     Piece pieces_[most_pieces];
     int piece_count_ = 0;
+    TemplateMarks marks_;
+    /// Fields that are as long as a code.
+    std::uint8_t long_fields_[CodeReadings::most] = {};
     const char* problem_ = "";
     int place_ = 0;
 };
 
 // ---- Implementation ---------------------------------------------------------------
-
-namespace detail {
-
-constexpr int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-/// What a PLC checks: all bytes in front, without the STX that begins a frame.
-inline Span<const std::uint8_t> checked_bytes(const TextBuffer& line) {
-    const Span<const std::uint8_t> bytes = line.bytes();
-    return !bytes.empty() && bytes[0] == 2 ? bytes.from(1) : bytes;
-}
-
-/// CRC-16/CCITT-FALSE: polynomial 0x1021, begun with ones, most significant bit first.
-constexpr std::uint32_t crc16_of(Span<const std::uint8_t> bytes) {
-    std::uint32_t crc = 0xffff;
-    for (const std::uint8_t byte : bytes) {
-        crc ^= std::uint32_t{byte} << 8;
-        for (int bit = 0; bit < 8; ++bit)
-            crc = (crc & 0x8000u) != 0 ? (crc << 1 ^ 0x1021u) & 0xffffu : crc << 1;
-    }
-    return crc;
-}
-
-}  // namespace detail
 
 inline Status ResultTemplate::read_escape(Span<const char> text, std::ptrdiff_t& at, char& letter) {
     const char kind = at + 1 < text.size() ? text[at + 1] : '\0';
@@ -168,8 +141,8 @@ inline Status ResultTemplate::read_escape(Span<const char> text, std::ptrdiff_t&
         case '{':
         case '}': letter = kind; break;
         case 'x': {
-            const int high = at + 2 < text.size() ? detail::hex_digit(text[at + 2]) : -1;
-            const int low = at + 3 < text.size() ? detail::hex_digit(text[at + 3]) : -1;
+            const int high = at + 2 < text.size() ? hex_digit(text[at + 2]) : -1;
+            const int low = at + 3 < text.size() ? hex_digit(text[at + 3]) : -1;
             if (high < 0 || low < 0) return fail(Status::malformed, "\\x wants two hexadecimal digits", at);
             letter = static_cast<char>(16 * high + low);
             at += 2;
@@ -193,7 +166,7 @@ inline Status ResultTemplate::read_field(Span<const char> text, std::ptrdiff_t& 
         {"parts", Field::parts},      {"frame", Field::frame},       {"age_us", Field::age_us},
         {"took_us", Field::took_us},  {"triggers", Field::triggers}, {"ok", Field::ok},
         {"ng", Field::not_ok},        {"error", Field::error},       {"missed", Field::missed},
-        {"xor", Field::exclusive_or}, {"crc16", Field::crc16},
+        {"xor", Field::exclusive_or}, {"crc16", Field::crc16},       {"codes", Field::codes},
     };
     const std::ptrdiff_t begin = at++;
     std::ptrdiff_t end = at;
@@ -226,6 +199,12 @@ inline Status ResultTemplate::read_field(Span<const char> text, std::ptrdiff_t& 
         for (const char c : name)
             if (!into.keep(c)) return fail(Status::capacity_exceeded, "the template is too long", begin);
         found = true;
+    }
+    if (!found && read_code_field(name, piece.code)) {
+        piece.field = Field::code;
+        found = true;
+        if (piece.code.is_long() && ++into.long_fields_[piece.code.index] > most_long_fields)
+            return fail(Status::capacity_exceeded, "the same code more than three times", begin + 1);
     }
     if (!found) return fail(Status::not_found, "no such field", begin + 1);
     at = end;
@@ -288,6 +267,7 @@ inline Status ResultTemplate::read(Span<const char> text) {
             fresh.pieces_[fresh.piece_count_++] = literal;
         }
         if (!fresh.keep(letter)) return fail(Status::capacity_exceeded, "the template is too long", here);
+        fresh.marks_.add(letter);
         ++fresh.pieces_[fresh.piece_count_ - 1].length;
     }
     *this = fresh;
@@ -321,6 +301,18 @@ inline void ResultTemplate::write_otherwise(const Piece& piece, TextBuffer& line
     const Span<const char> otherwise = kept(piece.otherwise, piece.otherwise_length);
     if (!otherwise.empty()) return write_word(otherwise, piece, line);
     for (int k = 0; k < (piece.width == 0 ? 1 : piece.width); ++k) line.put('?');
+}
+
+inline void ResultTemplate::write_code(const Inspection& inspection, const Piece& piece,
+                                       TextBuffer& line) const {
+    if (piece.code.index >= inspection.codes.size()) return write_otherwise(piece, line);
+    const CodeReading& reading = inspection.codes[piece.code.index];
+    int wide = 0;
+    put_code_field(reading, piece.code, marks_, [&](char) { ++wide; });
+    // Half a code would be another one.
+    const bool fits = piece.width == 0 || wide <= piece.width;
+    if (fits) put_code_field(reading, piece.code, marks_, [&](char letter) { line.put(letter); });
+    for (int k = fits ? wide : 0; k < piece.width; ++k) line.put(fits ? ' ' : '*');
 }
 
 inline void ResultTemplate::write_feature(const Inspection& inspection, const Piece& piece,
@@ -382,16 +374,18 @@ inline void ResultTemplate::write(const Inspection& inspection, const Tally& tal
             case Field::not_ok: write_number(whole(tally.not_ok), piece, line); break;
             case Field::error: write_number(whole(tally.error), piece, line); break;
             case Field::missed: write_number(whole(tally.missed), piece, line); break;
+            case Field::codes: write_number(inspection.codes.size(), piece, line); break;
+            case Field::code: write_code(inspection, piece, line); break;
             case Field::feature:
             case Field::feature_milli:
             case Field::feature_verdict: write_feature(inspection, piece, line); break;
             case Field::exclusive_or: {
                 std::uint32_t all = 0;
-                for (const std::uint8_t byte : detail::checked_bytes(line)) all ^= byte;
+                for (const std::uint8_t byte : checked_bytes(line)) all ^= byte;
                 line.hex(all, 2);
                 break;
             }
-            case Field::crc16: line.hex(detail::crc16_of(detail::checked_bytes(line)), 4); break;
+            case Field::crc16: line.hex(crc16_of(checked_bytes(line)), 4); break;
         }
     }
 }

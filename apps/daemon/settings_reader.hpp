@@ -12,6 +12,7 @@
 #include <fovea/codec/toml.hpp>
 
 #include <common/text.hpp>
+#include <daemon/result_presets.hpp>
 #include <daemon/result_template.hpp>
 #include <daemon/settings.hpp>
 

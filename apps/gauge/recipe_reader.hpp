@@ -129,6 +129,9 @@ private:
             return fail(item.place, "more than " + std::to_string(Recipe::max_features) + " features");
         }
         if (name == "feature") return fail(item.place, "features are written as [[feature]]");
+        if (name == "codes")
+            return fail(item.place,
+                        "[codes] is no part of a recipe; `fovead` and `fovea read --job` take it");
         if (name != "scale" && name != "locate")
             return fail(item.place, "unknown table [" + shortened(name, 40) + "]" +
                                         hint(bracketed(nearest_name(name, {"scale", "locate", "feature"}))));

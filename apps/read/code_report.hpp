@@ -11,6 +11,7 @@
 
 #include <common/decimals.hpp>
 #include <common/text.hpp>
+#include <read/code_escape.hpp>
 
 namespace fovea::apps {
 
@@ -26,20 +27,13 @@ inline std::string aim_of(const Code& code) { return {']', aim_letter(code.symbo
 
 /// A text on one line: what would end or disturb it becomes \n, \r, \t or \xNN.
 inline std::string escaped(const std::string& text) {
-    static const char* const digits = "0123456789abcdef";
     std::string line;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '\n')
-            line += "\\n";
-        else if (c == '\r')
-            line += "\\r";
-        else if (c == '\t')
-            line += "\\t";
-        else if (byte < 0x20 || byte == 0x7f)
-            line += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
-        else
-            line += c;
+    const auto put = [&](char letter) { line += letter; };
+    for (Span<const char> rest = span_of(text); !rest.empty();) {
+        const Span<const char> character = rest.first(first_code_point(rest).bytes);
+        const bool disturbing = disturbing_bytes(rest) > 0;
+        for (const char letter : character) disturbing ? put_escaped(letter, put) : put(letter);
+        rest = rest.from(character.size());
     }
     return line;
 }

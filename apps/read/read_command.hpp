@@ -16,7 +16,10 @@
 #include <common/arguments.hpp>
 #include <common/io.hpp>
 #include <common/picture_file.hpp>
+#include <read/code_job_reader.hpp>
+#include <read/code_judge.hpp>
 #include <read/code_report.hpp>
+#include <read/code_rule.hpp>
 #include <read/symbology_names.hpp>
 
 namespace fovea::apps {
@@ -38,6 +41,13 @@ inline Command read_help() {
          {"digits", "N,...", "Interleaved 2 of 5: the numbers of digits in use, as 14; 6 to 80"},
          {"allowed", "TEXT", "the text that a code must have: it is OK, any other is NG"},
          {"allowed-file", "FILE", "the same with a text on each line"},
+         {"pattern", "PATTERN",
+          "the same for all texts that a pattern fits: # is a digit, @ a letter,\n? any character, * any "
+          "number "
+          "of them, \\ in front of one of these\nthe character itself"},
+         {"job", "JOB.toml",
+          "judge each picture as fovead does by the [codes] of that job, which\nhas all of the options "
+          "above"},
          {"unique", "", "tell a code once, in however many pictures it stands"},
          {"prefix", "TEXT", "stands in front of each text"},
          {"suffix", "TEXT", "stands behind it"},
@@ -51,7 +61,7 @@ inline Command read_help() {
         "far as a code says or lets guess what its bytes mean; \\n, \\r, \\t and \\xNN stand for control\n"
         "characters. Corners begin where reading begins and go on clockwise as one reads.\n\n"
         "Ends with 0 when every picture has a code and all are allowed, with 1 when one has none or one\n"
-        "that is not, and with 2 when a picture cannot be read.\n"};
+        "that is not, and with 2 when a picture cannot be read or judged.\n"};
 }
 
 namespace detail {
@@ -62,7 +72,9 @@ struct ReadSettings {
     bool raw = false;
     bool unique = false;
     bool judges = false;  ///< some texts are allowed, others not
-    std::vector<std::string> allowed;
+    CodeRule allowed;
+    bool by_job = false;
+    CodeJob job;
     std::string prefix;
     std::string suffix;
     std::string explain_name;
@@ -88,16 +100,36 @@ inline std::string read_digits(const std::string& text, BarRules& rules) {
 
 /// The texts of a file, one on each line.
 template <class Io>
-std::string read_allowed(Io& io, const std::string& name, std::vector<std::string>& allowed) {
+std::string read_allowed(Io& io, const std::string& name, CodeRule& allowed) {
     const Result<Span<const std::uint8_t>> bytes = io.storage().load(name.c_str());
     if (!bytes) return "--allowed-file " + file_problem(name, bytes.status(), io.storage());
     const std::string text(reinterpret_cast<const char*>(bytes->data()),
                            static_cast<std::size_t>(bytes->size()));
     for (std::string line : split(text, '\n')) {
         if (!line.empty() && line.back() == '\r') line.pop_back();
-        if (!line.empty()) allowed.push_back(line);
+        if (!line.empty()) allowed.allow(line);
     }
     return allowed.empty() ? "--allowed-file " + name + ": no text stands in it" : "";
+}
+
+/// The job of --job, which leaves nothing of what it says to other options.
+template <class Io>
+std::string read_job_option(Io& io, const Arguments& arguments, ReadSettings& settings) {
+    for (const char* const other : {"symbology", "most", "quick", "add-on", "ascii", "check", "digits",
+                                    "allowed", "allowed-file", "pattern", "unique"})
+        if (arguments.has(other))
+            return std::string("--") + other + " has no meaning beside --job, which says it";
+    const std::string name = arguments.value("job");
+    const Result<Span<const std::uint8_t>> bytes = io.storage().load(name.c_str());
+    if (!bytes) return "--job " + file_problem(name, bytes.status(), io.storage());
+    const CodeJobFile file = read_code_job(std::string(bytes->begin(), bytes->end()));
+    if (!file.problem.empty())
+        return "--job " + name + ":" + std::to_string(file.place.line) + ":" +
+               std::to_string(file.place.column) + ": " + file.problem;
+    if (!file.found) return "--job " + name + ": there is no [codes] in it";
+    settings.by_job = true;
+    settings.job = file.job;
+    return file.job.taught ? "--job " + name + ": with taught = true only fovead knows what is allowed" : "";
 }
 
 template <class Io>
@@ -120,10 +152,18 @@ std::string read_settings(Io& io, const Arguments& arguments, ReadSettings& sett
         problem = read_symbologies(arguments.value("symbology"), settings.codes.symbologies);
     if (problem.empty() && arguments.has("digits")) problem = read_digits(arguments.value("digits"), rules);
     if (problem.empty()) whole_option(arguments, "most", 1, 1000, settings.codes.most_codes, problem);
-    settings.judges = arguments.has("allowed") || arguments.has("allowed-file");
-    if (arguments.has("allowed")) settings.allowed.push_back(arguments.value("allowed"));
+    if (arguments.has("allowed")) settings.allowed.allow(arguments.value("allowed"));
+    CodePattern pattern;
+    if (problem.empty() && arguments.has("pattern")) {
+        problem = pattern.read(arguments.value("pattern"));
+        if (!problem.empty()) return "--pattern: " + problem;
+        settings.allowed.allow(pattern);
+    }
     if (problem.empty() && arguments.has("allowed-file"))
         problem = read_allowed(io, arguments.value("allowed-file"), settings.allowed);
+    if (problem.empty() && arguments.has("job")) problem = read_job_option(io, arguments, settings);
+    settings.judges = settings.by_job || arguments.has("allowed") || arguments.has("allowed-file") ||
+                      arguments.has("pattern");
     return problem;
 }
 
@@ -191,15 +231,16 @@ public:
             return exit_failed;
         }
         std::vector<ReadCode> read;
-        const Status status = read_picture(image, settings_.codes, read);
         ExitCode code = exit_ok;
-        if (read.empty()) {
+        if (settings_.by_job) code = judge(name, image, read);
+        const Status status = settings_.by_job ? Status::ok : read_picture(image, settings_.codes, read);
+        if (read.empty() && !settings_.by_job) {
             const std::string why = nothing_read(status);
             io_.complain(name + ": " + why);
             if (settings_.json) io_.print(json_no_code(name, why));
             code = status == Status::not_found || status == Status::undecided ? exit_not_ok : exit_failed;
         }
-        for (std::size_t i = 0; i < read.size(); ++i)
+        for (std::size_t i = 0; i < read.size() && !settings_.by_job; ++i)
             code = worse(code, tell(name, static_cast<int>(i), read[i]));
         if (!explain_name.empty() &&
             !save_picture(io_.storage(), explain_name, explain_codes(image, read), problem)) {
@@ -217,10 +258,26 @@ private:
             return "a code was seen, and its lines do not agree well enough to tell it";
         return describe(status);
     }
+    /// As the daemon does, picture by picture.
+    ExitCode judge(const std::string& name, const Picture<Gray8>& image, std::vector<ReadCode>& read) {
+        std::vector<std::uint8_t> scratch(
+            static_cast<std::size_t>(read_job_scratch(settings_.job.looked_at(image.size))));
+        const CodesVerdict found = judge_.judge(
+            image.view(), settings_.job, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())});
+        if (found.verdict == Verdict::ok) judge_.remember();
+        for (const CodeReading& reading : judge_.codes()) {
+            read.push_back({reading.code, string_of(reading.text),
+                            std::string(reading.bytes.begin(), reading.bytes.end())});
+            print_code(name, static_cast<int>(read.size()) - 1, read.back(),
+                       reading.fault[0] == '\0' ? "OK" : "NG");
+        }
+        if (found.verdict == Verdict::ok) return exit_ok;
+        io_.complain(name + ": " + found.reason);
+        if (settings_.json && read.empty()) io_.print(json_no_code(name, found.reason));
+        return found.verdict == Verdict::unmeasured ? exit_failed : exit_not_ok;
+    }
     ExitCode tell(const std::string& name, int index, const ReadCode& read) {
-        const bool allowed =
-            !settings_.judges || std::find(settings_.allowed.begin(), settings_.allowed.end(), read.text) !=
-                                     settings_.allowed.end();
+        const bool allowed = settings_.allowed.allows(span_of(read.text));
         const std::string verdict = !settings_.judges ? "" : allowed ? "OK" : "NG";
         if (settings_.unique) {
             const std::string key = human_code(read);
@@ -228,6 +285,10 @@ private:
                 return allowed ? exit_ok : exit_not_ok;
             told_.push_back(key);
         }
+        print_code(name, index, read, verdict);
+        return allowed ? exit_ok : exit_not_ok;
+    }
+    void print_code(const std::string& name, int index, const ReadCode& read, const std::string& verdict) {
         ReadCode shown = read;
         shown.text = settings_.prefix + read.text + settings_.suffix;
         if (settings_.json)
@@ -237,13 +298,13 @@ private:
         else
             io_.print((names_images_ ? one_line(name) + ": " : "") + (verdict.empty() ? "" : verdict + " ") +
                       human_code(shown) + "\n");
-        return allowed ? exit_ok : exit_not_ok;
     }
 
     Io& io_;
     const ReadSettings& settings_;
     bool names_images_;
     std::vector<std::string> told_;
+    CodeJudge judge_;
 };
 
 }  // namespace detail

@@ -55,6 +55,15 @@ minus = 0
 plus = 1000
 """
 
+# Reads codes in place of measuring.
+CODE_JOB = """format = 1
+name = "label"
+[codes]
+symbologies = ["retail"]
+patterns = ["978*"]
+"""
+CODES = {"code": "9780905705712", "other_code": "4006381333931"}
+
 LINES = f"""[lines]
 chip = "pl061"
 ready = "{READY}"
@@ -82,6 +91,22 @@ def disc(hole):
     return bytes(pixels)
 
 
+def ean_13(digits):
+    """The pixels of an EAN-13 on bright ground, modules of 4 px. ISO/IEC 15420."""
+    odd = "0001101 0011001 0010011 0111101 0100011 0110001 0101111 0111011 0110111 0001011".split()
+    right = [digit.translate({48: 49, 49: 48}) for digit in odd]
+    even = [digit[::-1] for digit in right]
+    parity = "000000 001011 001101 001110 010011 011001 011100 010101 010110 011010".split()[int(digits[0])]
+    left = "".join((odd, even)[int(bit)][int(digit)] for digit, bit in zip(digits[1:7], parity))
+    modules = "101" + left + "01010" + "".join(right[int(digit)] for digit in digits[7:]) + "101"
+    row = bytearray([220]) * WIDTH
+    for place, module in enumerate(modules):
+        if module == "1":
+            row[130 + 4 * place:134 + 4 * place] = bytes([30]) * 4
+    blank = bytes([220]) * WIDTH * (HEIGHT // 4)
+    return blank + bytes(row) * (HEIGHT // 2) + blank
+
+
 class DaemonRig(WatchedBoard):
     """A board with fovead on it, by its settings and a job."""
 
@@ -98,6 +123,8 @@ class DaemonRig(WatchedBoard):
             (here / f"{name}.gray").write_bytes(pixels)
             (here / f"{name}.jpg").write_bytes(mjpeg.encode(pixels, WIDTH, HEIGHT))
             (here / f"{name}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + pixels)
+        for name, digits in CODES.items():
+            (here / f"{name}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + ean_13(digits))
         files = {"/test": here}
         for name in ("fovead", "show_pictures", "usb_camera", "camera_on_board", "fovead_counted", "fovead_slow",
                      "count_calls"):

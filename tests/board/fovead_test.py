@@ -13,7 +13,7 @@ import tempfile
 import time
 
 from cases import case, holds, run_cases, same
-from daemon_rig import (ALARM, BUSY, BY_COMMAND, BY_LINE, LINES, NG, OK, PATTERN_RECIPE, READY, SERIAL, TRIGGER,
+from daemon_rig import (ALARM, BUSY, BY_COMMAND, BY_LINE, CODE_JOB, CODES, LINES, NG, OK, PATTERN_RECIPE, READY, SERIAL, TRIGGER,
                         USB, VALID, VIVID, WIDTH, HEIGHT, DaemonRig)
 from faults_page import IN_SERVICE, ON_BOARD
 from watched import unlike_the_page
@@ -233,6 +233,35 @@ def nothing_is_allocated_after_the_start():
         same(said[0], said[1])
         figures["calls of the heap before READY"] = said[0].split()[-1]
         figures["calls of the heap in 30 triggers after READY"] = str(int(said[1].split()[-1]) - int(said[0].split()[-1]))
+        same(board.stop()[0], 0)
+
+
+@case
+def codes_come_out_on_the_serial_line():
+    settings = VIVID + BY_LINE + LINES + SERIAL.replace("{f.d1}", "{code}")
+    with rig(settings, CODE_JOB, cameras=1, loop=True, serial=["socket"]) as board:
+        board.show("code")
+        board.start("fovead_counted")
+        same(board.pins.wait_for(READY, 1), True)
+        board.run("kill -USR1 $daemon; sleep 0.2")
+        for name, verdict, why, text in (("code", "OK", None, CODES["code"]), ("other_code", "NG", "wrong_code", CODES["other_code"]),
+                                         ("good", "NG", "no_code", None), ("code", "OK", None, CODES["code"])):
+            board.show(name)
+            result = board.trigger()
+            same((result["verdict"], result["why"], [code["text"] for code in result["codes"]]),
+                 (verdict, why, [text] if text else []))
+            same(board.pins.wait_for(READY, 1), True)
+        code = result["codes"][0]
+        same((code["symbology"], code["aim"], code["grade"] in ("A", "B", "C"), code["why"]), ("EAN-13", "]E0", True, None))
+        # The bars that were drawn begin and end there.
+        same([abs(x - edge) < 1 for (x, _), edge in zip(code["corners_px"], (129.5, 509.5, 509.5, 129.5))], [True] * 4)
+        same(board.heard(4), [f"1;OK;{CODES['code']}", f"2;NG;{CODES['other_code']}", "3;NG;?", f"4;OK;{CODES['code']}"])
+        board.run("kill -USR1 $daemon; sleep 0.2")
+        _, said = board.run("cat /tmp/complaints")
+        figures["calls of the heap in 4 triggers of codes"] = str(int(said[1].split()[-1]) - int(said[0].split()[-1]))
+        same(said[0], said[1])
+        figures["from the trigger's edge to the verdict of a code"] = f"{result['us']['answer']} us"
+        board.statistics()
         same(board.stop()[0], 0)
 
 

@@ -120,7 +120,7 @@ public:
         storage.files["jobs/disc.toml"] = bytes(disc_recipe());
         storage.files["jobs/other.toml"] = bytes(disc_recipe("other"));
         problem = job_list.read(storage, "jobs", {"other", "disc"});
-        scratch_room.resize(static_cast<std::size_t>(apps::judge_scratch({160, 120}, job_list[1].recipe)));
+        scratch_room.resize(static_cast<std::size_t>(apps::judge_scratch({160, 120}, job_list[1])));
     }
 
     // ---- What the daemon sees ----

@@ -90,12 +90,16 @@ TEST(JsonString, EscapesEveryControlCharacter) {
         EXPECT_EQ(read->text, text);
     }
     EXPECT_EQ(json_string("\x7f"), "\"\\u007f\"");
+    // Of Latin 1, and what separates lines in Unicode.
+    EXPECT_EQ(json_string("\xc2\x80\xc2\x85\xc2\x9f"), "\"\\u0080\\u0085\\u009f\"");
+    EXPECT_EQ(json_string("\xe2\x80\xa8\xe2\x80\xa9"), "\"\\u2028\\u2029\"");
 }
 
 TEST(JsonString, KeepsEveryWellFormedCharacter) {
-    // The first and the last code points of every length, and around the surrogates.
+    // The first and the last code points of every length that are no control characters, and around the
+    // surrogates.
     for (const std::string& text :
-         {std::string("\xc2\x80"), std::string("\xdf\xbf"), std::string("\xe0\xa0\x80"),
+         {std::string("\xc2\xa0"), std::string("\xdf\xbf"), std::string("\xe0\xa0\x80"),
           std::string("\xed\x9f\xbf"), std::string("\xee\x80\x80"), std::string("\xef\xbf\xbf"),
           std::string("\xf0\x90\x80\x80"), std::string("\xf4\x8f\xbf\xbf"),
           std::string("\xc3\x98 12 \xc2\xb5m")})

@@ -217,7 +217,7 @@ TEST(Daemon, KeepsNoSampleWithoutAFolder) {
     run(world, daemon, 100000);
     world.say("TEACH cap\n");
     run(world, daemon, 100000);
-    EXPECT_EQ(world.heard(), "ERR 41 [teach] has no folder\r\n");
+    EXPECT_EQ(world.heard(), "ERR 41 [teach] has no folder, and the job no taught = true\r\n");
     EXPECT_EQ(world.samples, Words());
 }
 

@@ -118,7 +118,7 @@ TEST(FailureRing, RefusesWhatHasNoPlace) {
     test::GuardedImage<Gray8> large({31, 20});
     EXPECT_EQ(ring.offer(large.view(), text("{}")), Status::buffer_too_small);
     EXPECT_EQ(ring.offer({}, text("{}")), Status::empty_image);
-    const std::string endless(4097, 'x');
+    const std::string endless(FailureRing<>::most_text + 1, 'x');
     EXPECT_EQ(ring.offer(picture(1).view(), text(endless.c_str())), Status::buffer_too_small);
     EXPECT_EQ(ring.dropped(), 0u);
     EXPECT_EQ(ring.stop(10000000), Status::ok);

@@ -9,6 +9,7 @@
 
 #include <daemon/fovead.hpp>
 
+#include "support/code_scene.hpp"
 #include "support/daemon_world.hpp"
 #include "support/json.hpp"
 #include "support/temporary_folder.hpp"
@@ -231,6 +232,64 @@ TEST(Fovead, TakesOtherOptionsBetweenTwoFrames) {
     const std::vector<Json> results = program.events("result");
     EXPECT_GE(results.size(), 18u);
     EXPECT_LE(results.size(), 22u) << "none is printed from then on";
+}
+
+TEST(Fovead, ReadsCodesWithAnyNumberOfThreads) {
+    const auto results = [](int threads) {
+        Program program;
+        std::filesystem::remove(program.folder.file("jobs/disc.toml"));
+        program.folder.write(
+            "jobs/second.toml",
+            "format = 1\nname = \"label\"\n[codes]\nsymbologies = [\"qr\"]\npatterns = [\"N#\"]\n");
+        const char* const texts[7] = {"N0", "N1", "X", "N3", "N4", "N", "N6"};
+        for (int k = 0; k < 7; ++k)
+            program.folder.write("pictures/" + std::to_string(k) + ".pgm",
+                                 test::CodeScene({160, 120}).draw(texts[k], Symbology::qr, 20, 2, 3).pgm());
+        program.write_settings("[processor]\nthreads = " + std::to_string(threads) + "\n");
+        program.end_at(1000);
+        EXPECT_EQ(program.run(), daemon_ok);
+        EXPECT_EQ(program.complaints, "");
+        const std::vector<Json> said = program.events("result");
+        EXPECT_GE(said.size(), 35u);
+        for (std::size_t k = 0; k < said.size(); ++k) {
+            const bool good = k % 7 != 2 && k % 7 != 5;
+            EXPECT_EQ(said[k]["verdict"].text, good ? "OK" : "NG");
+            EXPECT_EQ(said[k]["why"].text, good ? "" : "wrong_code");
+            if (said[k]["codes"].items.empty()) {
+                ADD_FAILURE() << "no code in picture " << k % 7;
+                break;
+            }
+            EXPECT_EQ(said[k]["codes"].items[0]["text"].text, texts[k % 7]);
+        }
+        return program.printed.substr(program.printed.find("\"result\""));
+    };
+    EXPECT_EQ(results(4), results(1));
+}
+
+TEST(Fovead, ChecksWhatAJobLooksAtBeforeItBegins) {
+    Program program;
+    const std::string job = program.folder.file("jobs/second.toml");
+    program.folder.write(
+        "jobs/second.toml",
+        "format = 1\nname = \"label\"\n[codes]\nsymbologies = [\"qr\"]\nregion = [1, 0, 160, 120]\n");
+    const auto check = [&] {
+        program.complaints = program.printed = "";
+        return fovead(
+            {"--config", program.folder.file("fovead.toml"), "--check-config"}, program,
+            PrintingKernel(program.time, program.printed), {}, -1, [] { return DaemonSignals(); }, "1");
+    };
+    EXPECT_EQ(check(), daemon_config);
+    EXPECT_EQ(program.complaints, "fovead: " + job + ":5:10: region: the picture has 160 x 120 px\n");
+    program.folder.write("jobs/second.toml",
+                         "format = 1\nname = \"label\"\n[codes]\nsymbologies = [\"rq\"]\n");
+    EXPECT_EQ(check(), daemon_config);
+    EXPECT_EQ(program.complaints.find("fovead: " + job + ":4:16: symbologies: there is no symbology 'rq'"),
+              0u)
+        << program.complaints;
+    program.folder.write("jobs/second.toml",
+                         "format = 1\nname = \"label\"\n[codes]\nsymbologies = [\"qr\"]\n");
+    EXPECT_EQ(check(), daemon_ok);
+    EXPECT_NE(program.printed.find("good, 2 jobs"), std::string::npos);
 }
 
 }  // namespace

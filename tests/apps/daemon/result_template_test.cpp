@@ -5,6 +5,7 @@
 
 #include <fovea/base/random.hpp>
 
+#include <daemon/result_presets.hpp>
 #include <daemon/result_template.hpp>
 
 namespace fovea::apps {
@@ -114,7 +115,7 @@ TEST(ResultTemplate, StaysAsItWasAfterAnError) {
 }
 
 TEST(ResultTemplate, HasPresetsThatAreTemplates) {
-    for (const char* name : {"plain", "pass-fail", "stx-etx", "csv"}) {
+    for (const char* name : {"plain", "pass-fail", "stx-etx", "csv", "code"}) {
         const char* const text = result_preset(letters_of(name));
         ASSERT_NE(text, nullptr);
         EXPECT_NE(filled(text)[0], '!') << name;

@@ -68,6 +68,56 @@ TEST_F(ReadCommand, JudgesTextsThatAreAllowed) {
     EXPECT_EQ(io.out, "ean.png: OK EAN-13 9780905705712\nqr.png: NG QR two\\nlines\n");
 }
 
+TEST_F(ReadCommand, JudgesTextsByAPattern) {
+    EXPECT_EQ(run({"--pattern", "978##########", "ean.png"}), apps::exit_ok);
+    EXPECT_EQ(io.out, "OK EAN-13 9780905705712\n");
+    EXPECT_EQ(run({"--pattern", "979*", "ean.png"}), apps::exit_not_ok);
+    EXPECT_EQ(run({"--pattern", "two*", "--allowed", "9780905705712", "ean.png", "qr.png"}), apps::exit_ok);
+    refuses({"--pattern", "a\\", "ean.png"}, "--pattern: after \\ comes one of n r t xNN \\ # @ ? *");
+}
+
+TEST_F(ReadCommand, JudgesByTheJobOfADaemon) {
+    const std::string top = "format = 1\nname = \"label\"\n[codes]\nsymbologies = [\"ean-13\", \"qr\"]\n";
+    io.put("label.toml", top + "patterns = [\"97*\"]\n");
+    EXPECT_EQ(run({"--job", "label.toml", "ean.png"}), apps::exit_ok);
+    EXPECT_EQ(io.out, "OK EAN-13 9780905705712\n");
+    EXPECT_EQ(run({"--job", "label.toml", "ean.png", "qr.png"}), apps::exit_not_ok);
+    EXPECT_EQ(io.out, "ean.png: OK EAN-13 9780905705712\nqr.png: NG QR two\\nlines\n");
+    EXPECT_EQ(io.errors(), "qr.png: wrong_code\n");
+    EXPECT_EQ(run({"--json", "--job", "label.toml", "blank.png"}), apps::exit_not_ok);
+    EXPECT_EQ(io.out, "{\"schema\":1,\"image\":\"blank.png\",\"code\":null,\"error\":\"no_code\"}\n");
+    io.put("region.toml", top + "region = [0, 0, 5000, 10]\n");
+    EXPECT_EQ(run({"--job", "region.toml", "ean.png"}), apps::exit_failed);
+    EXPECT_EQ(io.errors(), "ean.png: region_outside\n");
+    io.put("once.toml", top + "unlike_last = true\n");
+    EXPECT_EQ(run({"--job", "once.toml", "ean.png", "ean.png"}), apps::exit_not_ok);
+    EXPECT_EQ(io.errors(), "ean.png: repeated_code\n");
+    io.put("taught.toml", top + "taught = true\n");
+    io.put("recipe.toml", "format = 1\nname = \"a\"\n[locate]\n");
+    refuses({"--job", "taught.toml", "ean.png"},
+            "--job taught.toml: with taught = true only fovead knows what is allowed");
+    refuses({"--job", "recipe.toml", "ean.png"}, "--job recipe.toml: there is no [codes] in it");
+    refuses({"--job", "label.toml", "--quick", "ean.png"},
+            "--quick has no meaning beside --job, which says it");
+    io.put("wrong.toml", top + "cuont = 2\n");
+    refuses({"--job", "wrong.toml", "ean.png"},
+            "--job wrong.toml:5:1: unknown key cuont in [codes]; did you mean count?");
+}
+
+TEST_F(ReadCommand, LetsNoCodeEndItsLine) {
+    make({"--out", "forged.png",
+          "a\xc2\x85"
+          "b\xe2\x80\xa8"
+          "c\x1d"});
+    EXPECT_EQ(run({"forged.png"}), apps::exit_ok);
+    EXPECT_EQ(io.out,
+              "QR a\\xc2\\x85"
+              "b\\xe2\\x80\\xa8"
+              "c\\x1d\n");
+    EXPECT_EQ(run({"--json", "forged.png"}), apps::exit_ok);
+    EXPECT_NE(io.out.find("\"text\":\"a\\u0085b\\u2028c\\u001d\""), std::string::npos) << io.out;
+}
+
 TEST_F(ReadCommand, TellsACodeOnceOfSeveralPictures) {
     EXPECT_EQ(run({"--unique", "ean.png", "ean.png", "qr.png"}), apps::exit_ok);
     EXPECT_EQ(io.out, "ean.png: EAN-13 9780905705712\nqr.png: QR two\\nlines\n");

@@ -29,6 +29,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     inspection.values = 2;
     inspection.value[0] = {letters_of("d1"), Status::ok, Verdict::high, {-32114499}, 3};
     inspection.value[1] = {letters_of("f"), Status::not_found, Verdict::unmeasured, {}, 3};
+    // The template itself is what stands in a code.
+    CodeReading readings[2];
+    readings[0].text = text.first(size < 40 ? text.size() : 40);
+    readings[0].bytes = {data, static_cast<std::ptrdiff_t>(size < 40 ? size : 40)};
+    inspection.codes = readings;
     char room[200];
     TextBuffer line(room);
     made.write(inspection, Tally(), line);
