@@ -94,6 +94,18 @@ TEST(EanDecoder, AUpcEWithADoubtfulTwinIsNotRead) {
     }
 }
 
+// The left half of 4828599153336 and, of the first bar behind the middle guard, so much as a sheet over the
+// rest lets see.
+TEST(EanDecoder, TheLeftHalfOfAnEan13IsAUpcEOnlyWhereItEndsInANarrowBar) {
+    for (const int seen : {256, 512, 768}) {
+        std::vector<std::int32_t> edges = edges_of(bars_of(Symbology::ean_13, "482859915333"), 512);
+        edges.resize(1 + 33);
+        edges.push_back(edges.back() + seen);
+        edges.push_back(edges.back() + 20 * 512);
+        EXPECT_EQ(read(edges), seen == 512 ? "UPC-E 18285994" : "nothing found") << seen;
+    }
+}
+
 TEST(EanDecoder, FollowsAModuleThatGrowsAlongTheLine) {
     std::vector<std::int32_t> edges = edges_of(bars_of(Symbology::ean_13, "9780905705712"), 512);
     for (std::int32_t& edge : edges) {

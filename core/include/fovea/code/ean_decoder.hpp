@@ -301,6 +301,11 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     if (ean_check_digit({upc_a, 11}) != check || symbol.doubtful != 0) return false;
     BarReading found;
     finish_ean(symbol, runs, 6, Symbology::upc_e, {3, 9}, {6, 7}, found);
+    // The left half of an EAN-13 has the parities of number system 1: where its right half is covered from its
+    // first bar on, what is left of that bar is not as wide as the bars of the guards.
+    const std::int64_t bars =
+        symbol.between(0, 1) + symbol.between(2, 3) + symbol.between(28, 29) + symbol.between(30, 31);
+    if (digits[0] == 1 && !is_about(symbol.between(32, 33) * 4, bars, 170, 342)) return false;
     // The left half of an EAN-13 looks like a UPC-E that is followed by a space of up to four modules.
     if (symbol.between(runs, runs + 1) * 6 < symbol.between(27, 33) * 5) return false;
     if (found.quiet < 256 / 2 || found.error > upc_e_worst || symbol.worst > upc_e_farthest) return false;
