@@ -42,9 +42,10 @@ inline constexpr int ean_margin = 1000;
 inline constexpr int ean_8_worst = 100;
 inline constexpr int upc_e_worst = 88;
 inline constexpr int upc_e_farthest = 1100;
-/// 1 and 7, and 2 and 8, are twins: their edges of the same kind are equally far apart, and only bars of three
-/// or five modules tell them apart. In blur they are wrong by a module and more. A twin is doubtful where they
-/// lie farther from its own than half of the way to the middle between both, in 1/64 module.
+/// 1 and 7, and 2 and 8, are twins: their edges of the same kind are equally far apart, and only bars of
+/// three or five modules tell them apart. In blur they are wrong by a module and more. A twin is doubtful
+/// where its bars lie farther from their own width than half of the way to the middle between both, in 1/64
+/// module.
 inline constexpr int ean_twin_farthest = 32;
 
 struct EanDigit {
@@ -301,8 +302,8 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     if (ean_check_digit({upc_a, 11}) != check || symbol.doubtful != 0) return false;
     BarReading found;
     finish_ean(symbol, runs, 6, Symbology::upc_e, {3, 9}, {6, 7}, found);
-    // The left half of an EAN-13 has the parities of number system 1: where its right half is covered from its
-    // first bar on, what is left of that bar is not as wide as the bars of the guards.
+    // The left half of an EAN-13 has the parities of number system 1: where its right half is covered from
+    // its first bar on, what is left of that bar is not as wide as the bars of the guards.
     const std::int64_t bars =
         symbol.between(0, 1) + symbol.between(2, 3) + symbol.between(28, 29) + symbol.between(30, 31);
     if (digits[0] == 1 && !is_about(symbol.between(32, 33) * 4, bars, 170, 342)) return false;

@@ -52,9 +52,9 @@ constexpr int read_interleaved_digit(BarEdges edges, int at, TwoWidths& sorted) 
     return -1;
 }
 
-/// True if the wide runs of a pair are as wide as those of the pair before, and its narrow ones as narrow, by
-/// a quarter more than pairs may differ in perspective. Of bars that are no code thirteen in fourteen, which pass
-/// every other test, fail this one.
+/// True if the wide runs of a pair are as wide as those of the pair before, and its narrow ones as narrow,
+/// by some more than pairs may differ in perspective. Of bars that are no code and pass every other test
+/// thirteen in fourteen fail this one.
 constexpr bool are_interleaved_alike(const TwoWidths& one, const TwoWidths& before) {
     return is_about(one.broad, before.broad, 192, 341) && is_about(one.narrow, before.narrow, 154, 427);
 }
