@@ -12,7 +12,7 @@ COLOURS = {"fovea": "#0b6e4f", "zxing-cpp": "#d1495b", "zbar": "#3066be", "libdm
 # Who is drawn last lies on top; dashes leave equal lines visible.
 DASHES = {"fovea": "", "zxing-cpp": "5 2", "zbar": "2 2", "libdmtx": "7 2 2 2"}
 WIDTH, HEIGHT = 104, 62  # of the field of a plot, px
-LEFT, TOP = 118, 52      # of the first field
+LEFT, TOP = 148, 52      # of the first field
 ACROSS, DOWN = WIDTH + 20, HEIGHT + 30
 
 
