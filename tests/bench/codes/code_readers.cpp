@@ -2,41 +2,26 @@
 //
 // Reads the photo sets of codes with fovea and with the readers that are installed, picture by picture in
 // turn, and prints how many each reads at every quarter turn, how often it says something else, and the
-// median of its times.
+// median of the times of the processor that it takes.
 //
 // usage: code_readers [SET...]
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
-#include <memory>
+#include <ctime>
 #include <string>
 #include <vector>
 
-#ifdef FOVEA_HAVE_ZBAR
-#include <zbar.h>
-#endif
-
 #include <read/read_command.hpp>
 #include <support/code_photos.hpp>
-
-#ifdef FOVEA_HAVE_ZXING
-#include <ZXing/ReadBarcode.h>
-#include <ZXing/TextUtfEncoding.h>
-#endif
+#include <support/foreign_readers.hpp>
 
 namespace {
 
 using namespace fovea;
+using test::CodeReader;
 using test::Photo;
-
-/// The texts that a reader finds in a picture.
-using Texts = std::vector<std::string>;
-struct Reader {
-    const char* name;
-    std::function<Texts(const apps::Picture<Gray8>&)> read;
-};
+using test::Texts;
 
 Texts read_with_fovea(const apps::Picture<Gray8>& picture, int most_codes) {
     std::vector<apps::ReadCode> codes;
@@ -48,56 +33,17 @@ Texts read_with_fovea(const apps::Picture<Gray8>& picture, int most_codes) {
     return texts;
 }
 
-#ifdef FOVEA_HAVE_ZXING
-ZXing::DecodeHints hard() {
-    ZXing::DecodeHints hints;
-    hints.setTryHarder(true);
-    hints.setTryRotate(true);
-    return hints;
-}
-#endif
-
-std::vector<Reader> readers() {
-    std::vector<Reader> result = {
+std::vector<CodeReader> readers() {
+    std::vector<CodeReader> result = {
         {"fovea, one code", [](const apps::Picture<Gray8>& picture) { return read_with_fovea(picture, 1); }},
         {"fovea, all codes",
          [](const apps::Picture<Gray8>& picture) { return read_with_fovea(picture, 32); }}};
 #ifdef FOVEA_HAVE_ZXING
-    result.push_back(
-        {"zxing-cpp, one code", [](const apps::Picture<Gray8>& picture) {
-             ZXing::DecodeHints hints;
-             hints.setTryHarder(true);
-             hints.setTryRotate(true);
-             const auto found = ZXing::ReadBarcode(
-                 {picture.pixels.data(), picture.size.width, picture.size.height, ZXing::ImageFormat::Lum},
-                 hints);
-             return found.isValid() ? Texts{ZXing::TextUtfEncoding::ToUtf8(found.text())} : Texts{};
-         }});
-    result.push_back({"zxing-cpp, all codes", [](const apps::Picture<Gray8>& picture) {
-                          Texts texts;
-                          for (const auto& found :
-                               ZXing::ReadBarcodes({picture.pixels.data(), picture.size.width,
-                                                    picture.size.height, ZXing::ImageFormat::Lum},
-                                                   hard()))
-                              texts.push_back(ZXing::TextUtfEncoding::ToUtf8(found.text()));
-                          return texts;
-                      }});
+    result.push_back({"zxing-cpp, one code", test::read_one_with_zxing});
+    result.push_back({"zxing-cpp, all codes", test::read_with_zxing});
 #endif
 #ifdef FOVEA_HAVE_ZBAR
-    const auto scanner = std::make_shared<zbar::ImageScanner>();
-    scanner->set_config(zbar::ZBAR_NONE, zbar::ZBAR_CFG_ENABLE, 1);
-    scanner->set_config(zbar::ZBAR_UPCA, zbar::ZBAR_CFG_ENABLE, 1);
-    scanner->set_config(zbar::ZBAR_UPCE, zbar::ZBAR_CFG_ENABLE, 1);
-    result.push_back({"zbar, all codes", [scanner](const apps::Picture<Gray8>& picture) {
-                          zbar::Image image(static_cast<unsigned>(picture.size.width),
-                                            static_cast<unsigned>(picture.size.height), "Y800",
-                                            picture.pixels.data(), picture.pixels.size());
-                          scanner->scan(image);
-                          Texts texts;
-                          for (auto symbol = image.symbol_begin(); symbol != image.symbol_end(); ++symbol)
-                              texts.push_back(symbol->get_data());
-                          return texts;
-                      }});
+    result.push_back(test::zbar_reader("zbar, all codes"));
 #endif
     return result;
 }
@@ -109,24 +55,29 @@ bool same(const std::string& text, const std::string& truth) {
     return read == truth || (truth.size() == 12 && read == "0" + truth);
 }
 
+/// Time of the processor that this program has taken: what else runs does not count.
+double processor_ms() {
+    std::timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) / 1e6;
+}
+
 struct Score {
     int read[4] = {};
     int other = 0;
     std::vector<double> milliseconds;
 };
 
-void measure(const std::string& set, const std::vector<Reader>& all) {
+void measure(const std::string& set, const std::vector<CodeReader>& all) {
     std::vector<Photo> pictures = test::photos(set);
     if (pictures.empty()) return;
     std::vector<Score> scores(all.size());
     for (int turn = 0; turn < 4; ++turn) {
         for (Photo& photo : pictures) {
             for (std::size_t i = 0; i < all.size(); ++i) {
-                const auto start = std::chrono::steady_clock::now();
+                const double start = processor_ms();
                 const Texts texts = all[i].read(photo.picture);
-                const std::chrono::duration<double, std::milli> took =
-                    std::chrono::steady_clock::now() - start;
-                scores[i].milliseconds.push_back(took.count());
+                scores[i].milliseconds.push_back(processor_ms() - start);
                 const bool right =
                     !photo.text.empty() && std::any_of(texts.begin(), texts.end(),
                                                        [&](const auto& t) { return same(t, photo.text); });
@@ -166,6 +117,6 @@ int main(int count, char** words) {
         "| set | pictures | reader | read at 0 / 90 / 180 / 270 degrees | other texts | ms, median | ms, "
         "most |\n"
         "|---|---|---|---|---|---|---|\n");
-    const std::vector<Reader> all = readers();
+    const std::vector<CodeReader> all = readers();
     for (const std::string& set : sets) measure(set, all);
 }

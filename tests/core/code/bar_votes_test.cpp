@@ -92,6 +92,20 @@ TEST_F(BarVotesTest, Interleaved2Of5MustBeSeenInLinesApart) {
     EXPECT_TRUE(votes.is_certain(which));
 }
 
+// The left half of 4828599153336, whose right half was covered along a slanted edge, was told as 18285994.
+TEST_F(BarVotesTest, UpcEOfNumberSystem1MustBeSeenInLinesApart) {
+    const BarReading reading = reading_of("18285994", Symbology::upc_e);
+    for (int y = 50; y < 74; y += 2) votes.take(reading, row(y), false, which);
+    EXPECT_FALSE(votes.is_certain(which));  // 22 of 200 px
+    votes.take(reading, row(75), false, which);
+    EXPECT_TRUE(votes.is_certain(which));
+}
+TEST_F(BarVotesTest, UpcEOfNumberSystem0NeedsNoLinesApart) {
+    const BarReading reading = reading_of("01234565", Symbology::upc_e);
+    for (int y = 50; y < 58; y += 2) votes.take(reading, row(y), false, which);
+    EXPECT_TRUE(votes.is_certain(which));
+}
+
 TEST(BarLinesNeeded, FewDigitsPoorFitAndNarrowQuietZonesWantMore) {
     BarReading reading = reading_of("9780905705712");
     EXPECT_EQ(bar_lines_needed(reading), 2);

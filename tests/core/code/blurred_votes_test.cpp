@@ -45,6 +45,19 @@ TEST(BlurredVotes, AreHeldUpByOtherDigits) {
     EXPECT_EQ(votes.best().digits[0], 9);
 }
 
+// A UPC-E with modules of 1.5 px and a blur of 1.2 modules was told as 36536559.
+TEST(BlurredVotes, WantMoreOfTheFewDigitsOfAnEan8) {
+    BlurredVotes votes;
+    BlurredEan ean_8 = reading("36536559", 131);
+    ean_8.symbology = Symbology::ean_8;
+    for (int i = 0; i < 9; ++i) EXPECT_EQ(votes.take(ean_8), 0);
+    EXPECT_FALSE(votes.decided());
+    ean_8.margin = Ratio::from_ratio(150, 100);
+    EXPECT_EQ(votes.take(ean_8), 1);
+    EXPECT_EQ(votes.take(ean_8), 2);
+    EXPECT_TRUE(votes.decided());
+}
+
 TEST(BlurredVotes, ManyDifferentReadingsDecideNothing) {
     BlurredVotes votes;
     for (int i = 0; i < 20; ++i) {

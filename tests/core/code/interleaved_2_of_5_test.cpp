@@ -64,6 +64,25 @@ TEST(Interleaved2Of5, APartOfALongerCodeIsReadOnlyWhereItIsCutBehindWhatLooksLik
     }
 }
 
+// Each pair for itself has two wide bars and two wide spaces and is as wide as the others; but where its wide
+// bars are of four modules those of the next are of two.
+TEST(Interleaved2Of5, PairsThatAreNotAlikeAreNone) {
+    const auto edges_with = [](int first, int second, int third) {
+        Bars bars = bars_of(Symbology::interleaved_2_of_5, "123456");
+        const int wide[] = {first, second, third};
+        for (int i = 4; i < 34; ++i) {
+            if (bars.widths[i] == 1) continue;
+            const int of_pair = wide[(i - 4) / 10];
+            bars.widths[i] = static_cast<std::uint8_t>(i % 2 == 0 ? of_pair : 6 - of_pair);
+        }
+        return edges_of(bars, 512);
+    };
+    EXPECT_EQ(read(edges_with(3, 3, 3)), "I0 123456");
+    EXPECT_EQ(read(edges_with(4, 4, 4)), "I0 123456");
+    EXPECT_EQ(read(edges_with(4, 2, 4)), "nothing found");
+    EXPECT_EQ(read(edges_with(2, 4, 2)), "nothing found");
+}
+
 TEST(Interleaved2Of5, LeavesTheReadingOnErrors) {
     const std::vector<std::int32_t> still(60, 5);
     BarReading reading;

@@ -190,8 +190,12 @@ inline bool BarVotes::is_certain(int which) const {
             against += candidates_[i].lines;
     }
     if (candidate.lines < bar_lines_needed(candidate.reading) + 3 * against) return false;
-    if (candidate.reading.symbology != Symbology::interleaved_2_of_5) return true;
-    // A slanted line that enters through the side of a code reads the rest of it. Where lines an eighth of
+    const BarReading& reading = candidate.reading;
+    const bool part_of_more = reading.symbology == Symbology::interleaved_2_of_5 ||
+                              (reading.symbology == Symbology::upc_e && reading.text[0] == '1');
+    if (!part_of_more) return true;
+    // A slanted line that enters through the side of a code reads the rest of it, and where a slanted edge
+    // covers the right half of an EAN-13 some lines see a UPC-E of number system 1. Where lines an eighth of
     // the length apart read the same, they came in by the front.
     const std::int64_t spread = std::int64_t{candidate.highest_offset} - candidate.lowest_offset;
     return spread * 8 >= detail::bar_offset(candidate.span, candidate.span).length;

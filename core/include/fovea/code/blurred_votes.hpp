@@ -17,13 +17,20 @@ namespace fovea {
 ///
 /// Of 18700 stretches of photos that hold no such code, or another, the largest margin of wrong digits was
 /// 1.15, and 1.16 where EAN-8 was looked for. Beside right digits, under a highlight, wrong ones reached
-/// 1.24.
+/// 1.24. In 600 drawings of other bars out of focus, EAN-8 came to 1.31 on a UPC-E; of 194 right readings
+/// of an EAN-8 none was below 1.5.
 class BlurredVotes {
 public:
     /// What a profile must have to count, and what speaks against others.
     static constexpr std::int32_t clear_margin = Ratio::one * 5 / 4;
     static constexpr std::int32_t doubtful_margin = Ratio::one * 23 / 20;
+    static constexpr std::int32_t clear_ean_8_margin = Ratio::one * 3 / 2;
     static constexpr int profiles_needed = 2;
+
+    static constexpr bool is_clear(const BlurredEan& reading) {
+        return reading.margin.raw() >=
+               (reading.symbology == Symbology::ean_8 ? clear_ean_8_margin : clear_margin);
+    }
 
     /// The profiles so far with these digits and a clear margin; 0 if this is none.
     inline int take(const BlurredEan& reading);
@@ -62,7 +69,7 @@ private:
 
 inline int BlurredVotes::take(const BlurredEan& reading) {
     if (reading.margin.raw() < doubtful_margin) return 0;
-    const bool clear = reading.margin.raw() >= clear_margin;
+    const bool clear = is_clear(reading);
     int at = 0;
     while (at < count_ && !same(seen_[at].best, reading)) ++at;
     if (at == most) {

@@ -41,14 +41,25 @@ inline constexpr int ean_margin = 1000;
 /// UPC-E with 102 and more, blurred photos of true ones reach 80.
 inline constexpr int ean_8_worst = 100;
 inline constexpr int upc_e_worst = 88;
-/// Its digits must be nearer than those of the others: in blur a 2 was read for an 8.
 inline constexpr int upc_e_farthest = 1100;
+/// 1 and 7, and 2 and 8, are twins: their edges of the same kind are equally far apart, and only bars of
+/// three or five modules tell them apart. In blur they are wrong by a module and more. A twin is doubtful
+/// where its bars lie farther from their own width than half of the way to the middle between both, in 1/64
+/// module.
+inline constexpr int ean_twin_farthest = 32;
 
 struct EanDigit {
     int value = 0;
     int set_b = 0;
     int error = 0;
+    bool doubtful = false;  ///< it could be its twin
 };
+
+/// The other one of 1 and 7, and of 2 and 8; any other digit itself.
+constexpr int ean_twin(int digit) {
+    if (digit == 1 || digit == 2) return digit + 6;
+    return digit == 7 || digit == 8 ? digit - 6 : digit;
+}
 
 /// A symbol that is being read: edges, and what its guards tell of it.
 struct EanSymbol {
@@ -58,7 +69,8 @@ struct EanSymbol {
     int modules = 0;
     std::int64_t gain = 0;  ///< by how much a bar is too wide
     std::int64_t error = 0;
-    int worst = 0;  ///< of the digits: squares of 1/64 module
+    int worst = 0;          ///< of the digits: squares of 1/64 module
+    unsigned doubtful = 0;  ///< a bit for each digit, the last one in the lowest
 
     constexpr std::int32_t edge(int index) const { return edges[first + index]; }
     constexpr std::int64_t between(int from, int to) const { return std::int64_t{edge(to)} - edge(from); }
@@ -96,6 +108,7 @@ constexpr bool read_ean_digit(const EanSymbol& symbol, int at, std::int64_t seve
                 best = distance;
                 digit.value = value;
                 digit.set_b = set_b;
+                digit.doubtful = ean_twin(value) != value && maximum(c, -c) > ean_twin_farthest;
             } else if (distance < next) {
                 next = distance;
             }
@@ -136,9 +149,24 @@ constexpr bool read_ean_digits(EanSymbol& symbol, int at, int count, bool begins
         values[i] = static_cast<std::uint8_t>(digit.value);
         parity = parity << 1 | static_cast<unsigned>(digit.set_b);
         symbol.worst = maximum(symbol.worst, digit.error);
+        symbol.doubtful = symbol.doubtful << 1 | (digit.doubtful ? 1U : 0U);
         symbol.error += isqrt(static_cast<std::uint32_t>(digit.error));
     }
     return true;
+}
+
+/// True if twins could stand for some of the doubtful digits with the same check digit, the last one.
+constexpr bool are_twins_open(Span<const std::uint8_t> digits, unsigned doubtful) {
+    const auto count = static_cast<int>(digits.size());
+    // A bit for each change of the weighted sum, modulo ten, to which exchanged digits add up.
+    unsigned reached = 0;
+    for (int i = 0; i < count; ++i) {
+        if ((doubtful >> i & 1U) == 0) continue;
+        const int digit = digits[count - 1 - i];
+        const int change = ((ean_twin(digit) - digit) * (i % 2 == 0 ? 1 : 3) + 20) % 10;
+        reached |= ((reached << change | reached >> (10 - change)) & 0x3ffU) | 1U << change;
+    }
+    return (reached & 1U) != 0;
 }
 
 /// The place of parity in a table of ten, or -1.
@@ -222,6 +250,7 @@ inline bool decode_ean_13(EanSymbol symbol, const BarRules& rules, BarReading& r
     digits[0] = static_cast<std::uint8_t>(leading);
     if (!read_ean_digits(symbol, 32, 6, true, digits + 7, right)) return false;
     if (ean_check_digit({digits, 12}) != digits[12]) return false;
+    if (are_twins_open({digits, 13}, symbol.doubtful)) return false;
     const bool as_upc = leading == 0 && rules.symbologies.contains(Symbology::upc_a);
     if (!as_upc && !rules.symbologies.contains(Symbology::ean_13)) return false;
     BarReading found;
@@ -243,7 +272,8 @@ inline bool decode_ean_8(EanSymbol symbol, BarReading& reading) {
     unsigned right = 0;
     if (!read_ean_digits(symbol, 3, 4, false, digits, left) || left != 0) return false;
     if (!read_ean_digits(symbol, 24, 4, true, digits + 4, right)) return false;
-    if (ean_check_digit({digits, 7}) != digits[7]) return false;
+    if (ean_check_digit({digits, 7}) != digits[7] || are_twins_open({digits, 8}, symbol.doubtful))
+        return false;
     BarReading found;
     finish_ean(symbol, runs, 8, Symbology::ean_8, {3, 7}, {3, 7}, found);
     if (found.quiet < 256 / 3 || found.error > ean_8_worst) return false;
@@ -269,9 +299,14 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     digits[7] = static_cast<std::uint8_t>(check);
     std::uint8_t upc_a[12] = {};
     upc_a_of_upc_e(digits, upc_a);
-    if (ean_check_digit({upc_a, 11}) != check) return false;
+    if (ean_check_digit({upc_a, 11}) != check || symbol.doubtful != 0) return false;
     BarReading found;
     finish_ean(symbol, runs, 6, Symbology::upc_e, {3, 9}, {6, 7}, found);
+    // The left half of an EAN-13 has the parities of number system 1: where its right half is covered from
+    // its first bar on, what is left of that bar is not as wide as the bars of the guards.
+    const std::int64_t bars =
+        symbol.between(0, 1) + symbol.between(2, 3) + symbol.between(28, 29) + symbol.between(30, 31);
+    if (digits[0] == 1 && !is_about(symbol.between(32, 33) * 4, bars, 170, 342)) return false;
     // The left half of an EAN-13 looks like a UPC-E that is followed by a space of up to four modules.
     if (symbol.between(runs, runs + 1) * 6 < symbol.between(27, 33) * 5) return false;
     if (found.quiet < 256 / 2 || found.error > upc_e_worst || symbol.worst > upc_e_farthest) return false;
@@ -283,7 +318,7 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
 /// Reads the add-on of so many digits behind the code of the reading.
 inline bool decode_add_on(EanSymbol code, int count, BarReading& reading) {
     const int runs = 6 * count + 1;
-    EanSymbol symbol{code.edges, reading.last + 1, 0, 0, code.gain, 0, 0};
+    EanSymbol symbol{code.edges, reading.last + 1, 0, 0, code.gain, 0, 0, 0};
     if (symbol.first + runs + 1 >= code.edges.size()) return false;
     symbol.modules = 9 * count + 2;
     symbol.width = symbol.between(0, runs);
@@ -306,6 +341,8 @@ inline bool decode_add_on(EanSymbol code, int count, BarReading& reading) {
             return false;
         }
     }
+    // Its parities say too little to find what was exchanged.
+    if (symbol.doubtful != 0) return false;
     if (count == 2 && parity != static_cast<unsigned>((digits[0] * 10 + digits[1]) % 4)) return false;
     if (count == 5 && parity != add_on_5_parity[add_on_5_check({digits, 5})]) return false;
     for (int i = 0; i < count; ++i) reading.text[reading.size++] = static_cast<std::uint8_t>('0' + digits[i]);
@@ -317,7 +354,7 @@ inline bool decode_add_on(EanSymbol code, int count, BarReading& reading) {
 
 inline Status decode_ean(BarEdges edges, int first, const BarRules& rules, BarReading& reading) {
     if (first < 1 || first % 2 == 0 || first >= edges.size()) return Status::out_of_range;
-    detail::EanSymbol symbol{edges, first, 0, 0, 0, 0, 0};
+    detail::EanSymbol symbol{edges, first, 0, 0, 0, 0, 0, 0};
     const SymbologySet wanted = rules.symbologies;
     // Three runs of about the same width begin all of them.
     if (first + 3 >= edges.size()) return Status::not_found;

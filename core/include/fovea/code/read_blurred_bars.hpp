@@ -153,7 +153,7 @@ private:
                 if (!reading || (found && reading->margin <= best.margin)) continue;
                 best = *reading;
                 found = true;
-                if (best.margin.raw() >= BlurredVotes::clear_margin) return true;
+                if (BlurredVotes::is_clear(best)) return true;
             }
         }
         return found;

@@ -16,6 +16,7 @@ namespace fovea {
 struct TwoWidths {
     unsigned wide = 0;        ///< a bit a run, the first in the highest
     std::int64_t narrow = 0;  ///< mean width of the narrow ones, in 1/256 px
+    std::int64_t broad = 0;   ///< that of the wide ones
     int error = 0;            ///< mean distance of the runs from their own kind, in 1/256 of the narrow width
 };
 
@@ -78,6 +79,7 @@ constexpr bool sort_widths(BarEdges edges, int first, int step, int count, int w
     }
     sorted.wide = mask;
     sorted.narrow = narrow_mean;
+    sorted.broad = wide_mean;
     sorted.error = static_cast<int>(minimum<std::int64_t>(off * 256 / (narrow_mean * count), 4096));
     return true;
 }
