@@ -36,6 +36,7 @@ struct BlurredEanScratch {
     detail::DigitPaths paths;
     std::int32_t levels[detail::most_blur_samples];
     std::int32_t darkness[detail::most_blur_samples];
+    std::int64_t work = 0;  ///< scenes that were looked at so far: only added to
 };
 
 /// An EAN-13 (UPC-A is one that begins with 0) or EAN-8 that fits a profile best.
@@ -171,6 +172,7 @@ private:
 
     /// The cheapest letters of a scene, for the blur that the letters were made for.
     void evaluate(BlurTrial& trial) {
+        ++scratch_.work;
         sample_profile(plan_, profile_, trial.scene, scratch_.levels);
         darkness_of(plan_, scratch_.levels, trial.scene.light, scratch_.darkness);
         take_guards(plan_, scratch_.letters.module, scratch_.darkness);
