@@ -9,10 +9,10 @@ namespace {
 using detail::WorkBudget;
 
 TEST(WorkBudget, GrowsWithThePixelsAndIsNeverBelowTheLeast) {
-    EXPECT_EQ(WorkBudget(Size(100, 50), 4, 1000).left(), 20000);
-    EXPECT_EQ(WorkBudget(Size(10, 5), 4, 1000).left(), 1000);
+    EXPECT_EQ(WorkBudget(Size{100, 50}, 4, 1000).left(), 20000);
+    EXPECT_EQ(WorkBudget(Size{10, 5}, 4, 1000).left(), 1000);
     // The largest image does not overflow it.
-    EXPECT_EQ(WorkBudget(Size(max_image_side, max_image_side), 16, 0).left(),
+    EXPECT_EQ(WorkBudget(Size{max_image_side, max_image_side}, 16, 0).left(),
               std::int64_t{16} * max_image_side * max_image_side);
 }
 

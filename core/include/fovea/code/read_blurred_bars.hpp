@@ -61,7 +61,6 @@ public:
         samples_ = arena.take_unset<std::int16_t>(most_samples(src.size()));
         profile_ = arena.take_unset<std::uint16_t>(most_samples(src.size()));
         reader_ = arena.take_unset<BlurredEanScratch>(1).data();
-        reader_->work = 0;
         fields_scratch_ = arena.take_unset<std::uint8_t>(bar_fields_scratch(src.size()));
     }
     static constexpr std::int64_t most_samples(Size size) { return std::int64_t{size.width} + size.height; }
@@ -156,7 +155,8 @@ private:
             for (const Symbology symbology : {Symbology::ean_13, Symbology::ean_8}) {
                 if (!wanted(symbology)) continue;
                 if (spent()) return found;
-                const Result<BlurredEan> reading = read_blurred_ean(profile, span, symbology, *reader_);
+                const Result<BlurredEan> reading =
+                    detail::read_blurred_ean(profile, span, symbology, *reader_, work_);
                 if (!reading || (found && reading->margin <= best.margin)) continue;
                 best = *reading;
                 found = true;
@@ -165,7 +165,7 @@ private:
         }
         return found;
     }
-    bool spent() const { return reader_->work >= blurred_work; }
+    bool spent() const { return work_ >= blurred_work; }
     bool wanted(Symbology symbology) const {
         return symbologies_.contains(symbology) ||
                (symbology == Symbology::ean_13 && symbologies_.contains(Symbology::upc_a));
@@ -178,6 +178,7 @@ private:
     BlurredEanScratch* reader_ = nullptr;
     Span<std::uint8_t> fields_scratch_;
     List<BarField, most_blurred_fields> fields_;
+    int work_ = 0;
 };
 
 /// Writes a reading as a code: an EAN-13 that begins with 0 is a UPC-A, where that is wanted.
