@@ -111,12 +111,14 @@ inline Result<detail::DataMatrixFrame> frame_of(ImageView<const Gray8> image) {
     std::vector<detail::BorderCorner> corners(64);
     int count = 0;
     const detail::CodeField field(image, false);
-    static_cast<void>(scan_row_for_corners(field, image.height() / 2, 0, image.width() - 1, 24, passed,
+    static_cast<void>(scan_row_for_corners(field, image.height() / 2, 0, image.width() - 1, 24, 1 << 20,
+                                           passed,
                                            ListView<detail::BorderCorner>(corners.data(), 64, &count)));
     std::vector<std::int16_t> samples(detail::dash_samples);
     std::vector<detail::DashedLine> lines(3);
+    detail::WorkBudget budget(image.size(), 4, 1 << 20);
     const detail::FrameScratch scratch{
-        {{samples.data(), detail::dash_samples}, lines[0]}, lines[1], lines[2]};
+        {{samples.data(), detail::dash_samples}, lines[0], budget}, lines[1], lines[2]};
     for (int i = 0; i < count; ++i) {
         detail::FrameFinder finder(field, corners[static_cast<std::size_t>(i)], scratch);
         if (finder.find_arms(corners[static_cast<std::size_t>(i)]) != Status::ok) continue;

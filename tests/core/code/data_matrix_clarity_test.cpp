@@ -17,7 +17,8 @@ TEST(DataMatrixClarity, BringsAMovedCornerBack) {
     detail::DataMatrixFrame moved = *frame;
     moved.opposite.x += 700;
     moved.opposite.y -= 500;
-    EXPECT_TRUE(detail::make_clearer(field, size, moved));
+    detail::WorkBudget budget(image.view().size(), 4, 1 << 20);
+    EXPECT_TRUE(detail::make_clearer(field, size, moved, budget));
     EXPECT_LT(magnitude(moved.opposite.x - frame->opposite.x), 512U);
     EXPECT_LT(magnitude(moved.opposite.y - frame->opposite.y), 512U);
     EXPECT_NEAR(detail::module_of(*frame, size), 1024, 8);

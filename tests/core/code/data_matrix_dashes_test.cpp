@@ -22,7 +22,7 @@ struct DashScene {
             for (int i = x; i < x + width; ++i) image(i, j) = 30;
     }
     /// From the upper end of a line at x = 9.5 to the right, 16 modules of 5 px.
-    bool find() {
+    bool find(int work = 1 << 20) {
         detail::SolidLine from;
         from.line = {{2432, 15232}, detail::direction_of(0, -1)};
         from.inward = detail::direction_of(1, 0);
@@ -31,8 +31,9 @@ struct DashScene {
         beside.line = {{2432, 15232}, detail::direction_of(1, 0)};
         beside.inward = detail::direction_of(0, -1);
         beside.length = 80 * 256;
+        detail::WorkBudget budget(work);
         const detail::DashFinder finder(detail::CodeField(image, false), 1280, 600,
-                                        {{samples.data(), detail::dash_samples}, lines[0]});
+                                        {{samples.data(), detail::dash_samples}, lines[0], budget});
         return finder.find(from, beside, detail::is_side, lines[1], edge);
     }
 };
@@ -46,6 +47,8 @@ TEST(DataMatrixDashes, AreCountedAndTheirEdgeIsFound) {
     EXPECT_LE(std::abs(growth_of(scene.lines[1])), 20);
     EXPECT_NEAR(scene.edge.at.y, 2432, 40);
     EXPECT_NEAR(scene.edge.direction.y, 0, 200);
+    // Nothing is found without work that may be done.
+    EXPECT_FALSE(scene.find(100));
 }
 
 TEST(DataMatrixDashes, TellHowMuchPrintHasGrown) {

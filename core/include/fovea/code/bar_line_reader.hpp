@@ -15,6 +15,7 @@
 #include <fovea/code/bar_votes.hpp>
 #include <fovea/code/code.hpp>
 #include <fovea/code/decode_bars.hpp>
+#include <fovea/code/work_budget.hpp>
 
 namespace fovea {
 
@@ -55,6 +56,14 @@ public:
                arena_bytes<std::int32_t>(samples + 5) + arena_bytes<BarCandidate>(most_codes);
     }
 
+    /// Without it every line is read; with it no more lines once it is spent, of a unit a sample and eight an
+    /// edge for each way to see them.
+    void limit(const WorkBudget& budget) {
+        budget_ = budget;
+        limited_ = true;
+    }
+    bool spent() const { return limited_ && budget_.spent(); }
+
     /// Where the brightness of the next line goes.
     Span<std::int16_t> profile(int samples) const { return profile_.first(samples); }
 
@@ -66,7 +75,7 @@ public:
 
     /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only.
     void read(const BarLine& line, int level, Span<std::int16_t> sharp) {
-        if (line.samples < fewest_bar_edges) return;
+        if (line.samples < fewest_bar_edges || spent()) return;
         const Span<std::int16_t> plain = profile(line.samples);
         Span<std::int16_t> profile = plain;
         int share = 0;
@@ -80,6 +89,7 @@ public:
                 share = 0;
             }
             sharpness = sight.sharpness;
+            budget_.spend(line.samples);
             if (sight.share != share) turns = find_bar_turns(profile, sight.share, ranges_, turns_);
             share = sight.share;
             if (turns < fewest_bar_edges) continue;
@@ -113,6 +123,7 @@ public:
 private:
     bool read_both_ways(const BarLine& line, int count, bool inverted) {
         const BarEdges edges(edges_.data(), count);
+        budget_.spend(std::int64_t{2 * edge_work} * count);
         bool found = read_one_way(line, edges, false, 0, inverted);
         const int reversed = reverse_bar_edges(edges, reversed_);
         found = read_one_way(line, {reversed_.data(), reversed}, true, edges[count - 1], inverted) || found;
@@ -157,8 +168,12 @@ private:
         fresh_span_ = span;
     }
 
+    static constexpr int edge_work = 8;
+
     BarRules rules_;
     int agreeing_lines_;
+    bool limited_ = false;
+    WorkBudget budget_;
     Span<std::int16_t> profile_;
     Span<std::int16_t> ranges_;
     Span<BarTurn> turns_;

@@ -116,6 +116,9 @@ public:
         return Status::ok;
     }
 
+    /// Scenes that were looked at.
+    int work() const { return work_; }
+
 private:
     /// Guesses that are followed.
     static constexpr int kept_trials = 3;
@@ -171,6 +174,7 @@ private:
 
     /// The cheapest letters of a scene, for the blur that the letters were made for.
     void evaluate(BlurTrial& trial) {
+        ++work_;
         sample_profile(plan_, profile_, trial.scene, scratch_.levels);
         darkness_of(plan_, scratch_.levels, trial.scene.light, scratch_.darkness);
         take_guards(plan_, scratch_.letters.module, scratch_.darkness);
@@ -262,22 +266,32 @@ private:
     Span<const std::uint16_t> profile_;
     const BlurPlan& plan_;
     BlurredEanScratch& scratch_;
+    int work_ = 0;
 };
 
-}  // namespace detail
-
+/// As read_blurred_ean(); adds to work the scenes that were looked at, of 64 samples each.
 inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, ProfileSpan span,
-                                           Symbology symbology, BlurredEanScratch& scratch) {
+                                           Symbology symbology, BlurredEanScratch& scratch, int& work) {
     if (profile.empty()) return Status::empty_image;
     if (profile.size() < 64 || profile.size() > max_image_side) return Status::bad_argument;
     if (span.left < 2 || span.right > profile.size() - 3 || span.right - span.left < 64)
         return Status::bad_argument;
     if (symbology != Symbology::ean_13 && symbology != Symbology::ean_8) return Status::bad_argument;
-    const detail::BlurPlan& plan = symbology == Symbology::ean_13 ? detail::ean_13_plan : detail::ean_8_plan;
-    detail::BlurredEanReader reader(profile, plan, scratch);
+    const BlurPlan& plan = symbology == Symbology::ean_13 ? ean_13_plan : ean_8_plan;
+    BlurredEanReader reader(profile, plan, scratch);
     BlurredEan best;
-    if (Status status = reader.read(span, best); status != Status::ok) return status;
+    const Status status = reader.read(span, best);
+    work += reader.work();
+    if (status != Status::ok) return status;
     return best;
+}
+
+}  // namespace detail
+
+inline Result<BlurredEan> read_blurred_ean(Span<const std::uint16_t> profile, ProfileSpan span,
+                                           Symbology symbology, BlurredEanScratch& scratch) {
+    int work = 0;
+    return detail::read_blurred_ean(profile, span, symbology, scratch, work);
 }
 
 }  // namespace fovea

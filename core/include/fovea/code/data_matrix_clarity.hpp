@@ -11,6 +11,7 @@
 #include <fovea/code/data_matrix_lines.hpp>
 #include <fovea/code/data_matrix_placement.hpp>
 #include <fovea/code/data_matrix_sizes.hpp>
+#include <fovea/code/work_budget.hpp>
 #include <fovea/number/integer.hpp>
 
 namespace fovea::detail {
@@ -21,8 +22,10 @@ inline std::int32_t module_of(const DataMatrixFrame& frame, const DataMatrixSize
 
 /// Moves corners by parts of a module while that makes the borders clearer; false if it never did.
 ///
-/// Time  at most 8 rounds a step and three steps, of 16 looks at all modules of the borders
-inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, DataMatrixFrame& frame);
+/// Time  at most two rounds a step and three steps, of 16 looks at all modules of the borders; it ends with
+///       the budget, of a unit a module
+inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, DataMatrixFrame& frame,
+                         WorkBudget& budget);
 
 inline SquareToQuad map_of(const DataMatrixFrame& frame) {
     return SquareToQuad(frame.upper, frame.opposite, frame.right, frame.corner);
@@ -60,11 +63,19 @@ inline int clarity(const CodeField& field, const DataMatrixFrame& frame, const D
     return static_cast<int>(sum / count);
 }
 
-inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, DataMatrixFrame& frame) {
+/// Modules of the borders, about.
+constexpr int border_modules(const DataMatrixSize& size) {
+    return 2 * (size.rows * (size.columns / (size.region_columns() + 2)) +
+                size.columns * (size.rows / (size.region_rows() + 2)));
+}
+
+inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, DataMatrixFrame& frame,
+                         WorkBudget& budget) {
     const std::int32_t module = module_of(frame, size);
     int best = clarity(field, frame, size);
     const int begin = best;
     EdgePlace* const corners[4] = {&frame.opposite, &frame.upper, &frame.right, &frame.corner};
+    const int looks = border_modules(size);
     for (std::int32_t move = module / 2; move >= maximum<std::int32_t>(module / 8, 24); move /= 2) {
         const EdgePlace ways[4] = {{move, 0}, {-move, 0}, {0, move}, {0, -move}};
         for (int round = 0; round < 2; ++round) {
@@ -74,6 +85,7 @@ inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, Dat
                     const EdgePlace was = *corner;
                     *corner = was + way;
                     const int now = clarity(field, frame, size);
+                    budget.spend(looks);
                     if (now > best) {
                         best = now;
                     } else {
@@ -81,7 +93,7 @@ inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, Dat
                     }
                 }
             }
-            if (best == before) break;
+            if (best == before || budget.spent()) break;
         }
     }
     return best > begin;

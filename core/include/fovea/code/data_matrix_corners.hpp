@@ -7,10 +7,8 @@
 
 #include <fovea/base/list.hpp>
 #include <fovea/base/order.hpp>
-#include <fovea/base/span.hpp>
-#include <fovea/image/bit_view.hpp>
+#include <fovea/code/code_field.hpp>
 #include <fovea/image/geometry.hpp>
-#include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
 #include <fovea/number/integer.hpp>
 
@@ -34,77 +32,6 @@ struct BorderCorner {
     std::int64_t weight = 0;
 };
 
-/// A gray image, turned about where light modules stand on dark ground. Beyond its sides all is light.
-class CodeField {
-public:
-    CodeField() = default;
-    CodeField(ImageView<const Gray8> image, bool inverted)
-        : image_(image), flip_(inverted ? Gray8{255} : Gray8{0}) {}
-
-    Size size() const { return image_.size(); }
-    bool inverted() const { return flip_ != 0; }
-    const Gray8* row(int y) const { return image_.row(y); }
-    Gray8 flip() const { return flip_; }
-    std::ptrdiff_t stride() const { return image_.stride_bytes(); }
-    int pixel(int x, int y) const {
-        if (x < 0 || y < 0 || x >= image_.width() || y >= image_.height()) return 255;
-        return image_.row(y)[x] ^ flip_;
-    }
-    /// Between pixels, in 1/256 px; 1/16 levels: 0 to 4080.
-    int sample(std::int32_t x, std::int32_t y) const {
-        const int left = x >> 8;
-        const int top = y >> 8;
-        if (left < 0 || top < 0 || left >= image_.width() - 1 || top >= image_.height() - 1)
-            return sample_at_side(x, y);
-        const Gray8* upper = image_.row(top) + left;
-        const Gray8* lower = image_.row(top + 1) + left;
-        return between(upper[0], upper[1], lower[0], lower[1], x & 255, y & 255);
-    }
-
-private:
-    int between(int p00, int p10, int p01, int p11, int a, int b) const {
-        const int upper = 256 * p00 + (p10 - p00) * a;
-        const int lower = 256 * p01 + (p11 - p01) * a;
-        const int value = (256 * upper + (lower - upper) * b) >> 12;
-        return flip_ != 0 ? 4080 - value : value;
-    }
-    int sample_at_side(std::int32_t x, std::int32_t y) const {
-        const auto raw = [&](int i, int j) { return pixel(i, j) ^ flip_; };
-        const int left = x >> 8;
-        const int top = y >> 8;
-        return between(raw(left, top), raw(left + 1, top), raw(left, top + 1), raw(left + 1, top + 1),
-                       x & 255, y & 255);
-    }
-
-    ImageView<const Gray8> image_;
-    Gray8 flip_ = 0;
-};
-
-/// Which sides of pixels borders have passed: two bits a pixel.
-class PassedSides {
-public:
-    static constexpr std::int64_t words(Size size) {
-        return 2 * std::int64_t{bit_words(size.width)} * size.height;
-    }
-
-    PassedSides(Span<BitWord> words, Size size)
-        : words_(words),
-          left_(words.data(), size, bit_words(size.width)),
-          right_(words.data() + words.size() / 2, size, bit_words(size.width)) {}
-    void clear() const {
-        for (BitWord& word : words_) word = 0;
-    }
-    bool left(int x, int y) const { return left_(x, y); }
-    bool right(int x, int y) const { return right_(x, y); }
-    void pass_left(int x, int y) const { left_.set(x, y, true); }
-    void pass_right(int x, int y) const { right_.set(x, y, true); }
-
-private:
-    Span<BitWord> words_;
-    BitView<BitWord> left_;
-    BitView<BitWord> right_;
-};
-
 /// Splits a walk of points into straight pieces and pairs those that meet.
 class CornerFinder {
 public:
@@ -119,9 +46,10 @@ public:
     void end(bool closed);
 
 private:
+    /// In quarters of a pixel.
     struct Vector {
-        std::int64_t x;
-        std::int64_t y;
+        std::int32_t x;
+        std::int32_t y;
     };
     /// Within 7 % of it.
     static int about_length(int x, int y) {
@@ -129,7 +57,9 @@ private:
         const int b = y < 0 ? -y : y;
         return maximum(a, b) + 3 * minimum(a, b) / 8;
     }
-    static std::int64_t cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+    static std::int64_t cross(Vector a, Vector b) {
+        return std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
+    }
 
     void restart(Point p) {
         start_ = p;
@@ -155,7 +85,7 @@ private:
     int threshold_;
     Point start_;
     Point far_;
-    std::int64_t reach_ = 0;
+    std::int32_t reach_ = 0;
     bool open_ = true;  ///< no direction yet
     Vector low_{};
     Vector high_{};
@@ -165,26 +95,27 @@ private:
 };
 
 /// Follows the border of the dark around a pixel that has light on the side of `from` (0 right, 4 left).
-inline void follow_corners(const CodeField& field, Point start, int from, int threshold, int most_steps,
-                           const PassedSides& passed, ListView<BorderCorner> corners);
-
-/// Follows the borders that a row crosses between two of its pixels.
 /// Answers the steps that were walked.
-inline int scan_row_for_corners(const CodeField& field, int y, int first, int last, int contrast,
-                                const PassedSides& passed, ListView<BorderCorner> corners);
+inline int follow_corners(const CodeField& field, Point start, int from, int threshold, int most_steps,
+                          const PassedSides& passed, ListView<BorderCorner> corners);
+
+/// Follows the borders that a row crosses between two of its pixels, until they have so many steps.
+/// Answers the pixels of the row and the steps that were walked.
+inline std::int64_t scan_row_for_corners(const CodeField& field, int y, int first, int last, int contrast,
+                                         std::int64_t most, const PassedSides& passed,
+                                         ListView<BorderCorner> corners);
 
 inline void CornerFinder::add(Point p) {
-    // In quarters of a pixel.
-    const Vector v{4 * std::int64_t{p.x - start_.x}, 4 * std::int64_t{p.y - start_.y}};
-    const std::int64_t ax = v.x < 0 ? -v.x : v.x;
-    const std::int64_t ay = v.y < 0 ? -v.y : v.y;
-    const std::int64_t distance = maximum(ax, ay);
+    const Vector v{4 * (p.x - start_.x), 4 * (p.y - start_.y)};
+    const std::int32_t ax = v.x < 0 ? -v.x : v.x;
+    const std::int32_t ay = v.y < 0 ? -v.y : v.y;
+    const std::int32_t distance = ax > ay ? ax : ay;
     if (distance < 8) {
         if (reach_ >= 16) finish_piece();
         return;
     }
-    if (!open_ && (cross(low_, v) < 0 || cross(v, high_) < 0 || distance + 12 < reach_ ||
-                   v.x * low_.x + v.y * low_.y <= 0)) {
+    if (!open_ && (distance + 12 < reach_ || cross(low_, v) < 0 || cross(v, high_) < 0 ||
+                   std::int64_t{v.x} * low_.x + std::int64_t{v.y} * low_.y <= 0)) {
         const Point corner = far_;
         finish_piece();
         restart(corner);
@@ -192,15 +123,17 @@ inline void CornerFinder::add(Point p) {
         return;
     }
     // A pixel and a quarter aside, more on a long way: lenses bend lines.
-    const std::int64_t aside = 5 + minimum<std::int64_t>(distance / 128, 4);
+    const std::int32_t aside = 5 + (distance < 4 * 128 ? distance / 128 : 4);
     Vector low = v;
     Vector high = v;
     if (ax >= ay) {
-        low.y += v.x > 0 ? -aside : aside;
-        high.y += v.x > 0 ? aside : -aside;
+        const std::int32_t turned = v.x > 0 ? aside : -aside;
+        low.y -= turned;
+        high.y += turned;
     } else {
-        low.x += v.y > 0 ? aside : -aside;
-        high.x += v.y > 0 ? -aside : aside;
+        const std::int32_t turned = v.y > 0 ? aside : -aside;
+        low.x += turned;
+        high.x -= turned;
     }
     if (open_ || cross(low_, low) > 0) low_ = low;
     if (open_ || cross(high, high_) > 0) high_ = high;
@@ -264,45 +197,44 @@ inline void CornerFinder::pair(const BorderPiece& in, const BorderPiece& out) {
     if (corners_[weakest].weight < corner.weight) corners_[weakest] = corner;
 }
 
-inline int follow_corners_steps(const CodeField& field, Point start, int from, int threshold, int most_steps,
-                                const PassedSides& passed, ListView<BorderCorner> corners) {
+inline int follow_corners(const CodeField& field, Point start, int from, int threshold, int most_steps,
+                          const PassedSides& passed, ListView<BorderCorner> corners) {
     constexpr int step_x[8] = {1, 1, 0, -1, -1, -1, 0, 1};
     constexpr int step_y[8] = {0, 1, 1, 1, 0, -1, -1, -1};
     const int width = field.size().width;
     const int height = field.size().height;
     const Gray8 flip = field.flip();
-    const auto dark = [&](int x, int y) {
-        return x >= 0 && y >= 0 && x < width && y < height && (field.row(y)[x] ^ flip) < threshold;
-    };
     const std::ptrdiff_t stride = field.stride();
     const std::ptrdiff_t offset[8] = {1,  stride + 1,  stride,  stride - 1,
                                       -1, -stride - 1, -stride, 1 - stride};
     CornerFinder finder(corners, field.size(), threshold);
     finder.begin(start);
     Point at = start;
+    const Gray8* here = field.row(at.y) + at.x;
     int light = from;
     for (int step = 0; step < most_steps; ++step) {
-        // Clockwise from a light neighbour to the next dark one.
+        // Clockwise from a light neighbour to the next dark one. As unsigned numbers those below 0 are too
+        // large.
+        const bool inside = static_cast<unsigned>(at.x - 1) < static_cast<unsigned>(width - 2) &&
+                            static_cast<unsigned>(at.y - 1) < static_cast<unsigned>(height - 2);
         int way = light;
         int turned = 0;
-        const Gray8* here = field.row(at.y) + at.x;
-        const bool inside = at.x > 0 && at.y > 0 && at.x < width - 1 && at.y < height - 1;
-        do {
+        while (true) {
             if (way == 4) passed.pass_left(at.x, at.y);
             if (way == 0) passed.pass_right(at.x, at.y);
             way = (way + 1) & 7;
             ++turned;
-        } while (turned < 8 && !(inside ? (here[offset[way]] ^ flip) < threshold
-                                        : dark(at.x + step_x[way], at.y + step_y[way])));
-        if (turned == 8) return step;
+            if (inside || (static_cast<unsigned>(at.x + step_x[way]) < static_cast<unsigned>(width) &&
+                           static_cast<unsigned>(at.y + step_y[way]) < static_cast<unsigned>(height))) {
+                if ((here[offset[way]] ^ flip) < threshold) break;
+            }
+            if (turned == 8) return step;
+        }
         at = {at.x + step_x[way], at.y + step_y[way]};
+        here += offset[way];
         light = (way + (way % 2 == 0 ? 6 : 5)) & 7;
         finder.add(at);
-        if (at == start && light == from) {
-            finder.end(true);
-            return step;
-        }
-        // Also closed when it comes to the start from another side.
+        // Closed, also when it comes to the start from another side.
         if (at == start && ((from - light) & 7) < 3) {
             finder.end(true);
             return step;
@@ -312,12 +244,13 @@ inline int follow_corners_steps(const CodeField& field, Point start, int from, i
     return most_steps;
 }
 
-inline int scan_row_for_corners(const CodeField& field, int y, int first, int last, int contrast,
-                                const PassedSides& passed, ListView<BorderCorner> corners) {
+inline std::int64_t scan_row_for_corners(const CodeField& field, int y, int first, int last, int contrast,
+                                         std::int64_t most, const PassedSides& passed,
+                                         ListView<BorderCorner> corners) {
     const Gray8* row = field.row(y);
     const Gray8 flip = field.flip();
     const int most_steps = 8 * (field.size().width + field.size().height) + 256;
-    int steps = last - first + 1;
+    std::int64_t steps = last - first + 1;
     // Extremes in turn; between two of them that differ enough lies an edge.
     int low = row[first] ^ flip;
     int high = low;
@@ -325,6 +258,7 @@ inline int scan_row_for_corners(const CodeField& field, int y, int first, int la
     int high_at = first;
     int way = 0;
     const auto edge = [&](int from, int to, bool falling) {
+        if (steps >= most) return;
         // The steepest step and those beside it that are at least a sixth of it: not the slope of the light.
         const auto level = [&](int x) { return falling ? 255 - (row[x] ^ flip) : row[x] ^ flip; };
         int steepest = 0;
@@ -351,8 +285,7 @@ inline int scan_row_for_corners(const CodeField& field, int y, int first, int la
         while (x < end && ((row[x] ^ flip) < threshold) != falling) ++x;
         const int dark_at = falling ? x : x - 1;
         if (falling ? passed.left(dark_at, y) : passed.right(dark_at, y)) return;
-        steps += follow_corners_steps(field, {dark_at, y}, falling ? 4 : 0, threshold, most_steps, passed,
-                                      corners);
+        steps += follow_corners(field, {dark_at, y}, falling ? 4 : 0, threshold, most_steps, passed, corners);
     };
     for (int x = first + 1; x <= last; ++x) {
         const int value = row[x] ^ flip;

@@ -10,6 +10,7 @@
 #include <fovea/code/data_matrix_corners.hpp>
 #include <fovea/code/data_matrix_lines.hpp>
 #include <fovea/code/data_matrix_sizes.hpp>
+#include <fovea/code/work_budget.hpp>
 #include <fovea/number/integer.hpp>
 
 namespace fovea::detail {
@@ -38,6 +39,7 @@ struct SolidLine {
 struct DashScratch {
     Span<std::int16_t> samples;  ///< of a profile: dash_samples
     DashedLine& trial;
+    WorkBudget& budget;  ///< a unit a sample; where it is spent no dashed line is found
 };
 inline constexpr int dash_samples = 1536;
 
@@ -128,6 +130,7 @@ inline void DashFinder::follow_dashes(EdgePlace start, Direction way, std::int32
     bool ended = false;
     for (int i = 0; begin + step * i <= longest; ++i) {
         const int now = value(start + way.times(begin + step * i));
+        scratch_.budget.spend(1);
         samples[i] = static_cast<std::int16_t>(now);
         if (!rising) {
             if (now < samples[low]) low = i;
@@ -215,6 +218,7 @@ bool DashFinder::find(const SolidLine& from, const SolidLine& beside, Allowed al
     const int stride = module_ < 4 * 256 ? 1 : 2;
     for (int n = 0; n * stride <= 2 * tries; ++n) {
         const int j = stride * (n % 2 == 0 ? -n / 2 : (n + 1) / 2);
+        if (scratch_.budget.spent()) return false;
         if (even && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 2) break;
         if (!follow(j) || now.score <= best) continue;
         best = now.score;

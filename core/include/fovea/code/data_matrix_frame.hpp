@@ -27,6 +27,27 @@ struct DataMatrixFrame {
     int columns = 0;
 };
 
+/// At how many of 15 places along a piece light lies behind the dark, nearer than a third of its length:
+/// beside the solid line of a symbol that is so for about half of the modules.
+inline int thin_places(const CodeField& field, const BorderPiece& piece, int threshold) {
+    constexpr int places = 16;
+    const int reach = piece.length / 3;
+    const int step = maximum(reach / 8, 1);
+    int light = 0;
+    for (int i = 1; i < places; ++i) {
+        const int x = piece.first.x + static_cast<int>(piece.x() * i / places);
+        const int y = piece.first.y + static_cast<int>(piece.y() * i / places);
+        for (int depth = 1; depth <= reach; depth += step) {
+            if (field.pixel(x - static_cast<int>(piece.y() * depth / piece.length),
+                            y + static_cast<int>(piece.x() * depth / piece.length)) < threshold)
+                continue;
+            ++light;
+            break;
+        }
+    }
+    return light;
+}
+
 /// Scratch of FrameFinder.
 struct FrameScratch {
     DashScratch dash;
@@ -40,7 +61,6 @@ public:
     FrameFinder(const CodeField& field, const BorderCorner& corner, const FrameScratch& scratch)
         : field_(field),
           scratch_(scratch),
-          dark_below_(corner.threshold),
           threshold_(16 * corner.threshold - 8),
           largest_(256 * (field.size().width + field.size().height)) {}
 
@@ -58,14 +78,12 @@ private:
                 EdgeLine& line) const;
     std::int32_t thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const;
     std::int32_t walk(const SolidLine& arm) const;
-    int thin_places(const BorderPiece& piece) const;
     /// Both begin where they meet.
     static bool settle(SolidLine& first, SolidLine& second);
 
     CodeField field_;
     FrameScratch scratch_;
-    int dark_below_;  ///< grey levels
-    int threshold_;   ///< in 1/16 of them
+    int threshold_;  ///< in 1/16 grey levels
     int hysteresis_ = 64;
     std::int32_t largest_;
     std::int32_t module_ = 0;
@@ -106,6 +124,7 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
         }
         if (best < 1 << 20) offsets[count++] = {along, best};
     }
+    scratch_.dash.budget.spend(steps * std::int64_t{places});
     return 2 * count >= places && fit_edge({offsets, count}, chord, outward, line);
 }
 
@@ -113,6 +132,7 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
 /// half of the time.
 inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const {
     std::int32_t runs[probes];
+    int looks = 0;
     const std::int32_t most = maximum<std::int32_t>((to - from) / 4, 512);
     const std::int32_t step = clamp<std::int32_t>(most / 32, 64, 512);
     for (int i = 0; i < probes; ++i) {
@@ -124,7 +144,7 @@ inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t fr
         const int between = light - dark > 128 ? (light + dark) / 2 : threshold_;
         std::int32_t depth = 96;
         int before = between - 1;
-        for (; depth < most; depth += step) {
+        for (; depth < most; depth += step, ++looks) {
             const int now = value(edge + arm.inward.times(depth));
             if (now >= between) {
                 depth -= step * (now - between) / maximum(now - before, 1);
@@ -134,6 +154,7 @@ inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t fr
         }
         runs[i] = depth;
     }
+    scratch_.dash.budget.spend(3 * probes + looks);
     return nth_smallest(Span<std::int32_t>(runs), probes / 4);
 }
 
@@ -165,6 +186,7 @@ inline std::int32_t FrameFinder::walk(const SolidLine& arm) const {
             if (along - end > gap) break;
         }
         before = now;
+        scratch_.dash.budget.spend(2);
     }
     return end;
 }
@@ -177,29 +199,7 @@ inline bool FrameFinder::settle(SolidLine& first, SolidLine& second) {
     return true;
 }
 
-/// At how many of 15 places along a piece light lies behind the dark, nearer than a third of its length:
-/// beside the solid line of a symbol that is so for about half of the modules.
-inline int FrameFinder::thin_places(const BorderPiece& piece) const {
-    constexpr int places = 16;
-    const int reach = piece.length / 3;
-    const int step = maximum(reach / 8, 1);
-    int light = 0;
-    for (int i = 1; i < places; ++i) {
-        const int x = piece.first.x + static_cast<int>(piece.x() * i / places);
-        const int y = piece.first.y + static_cast<int>(piece.y() * i / places);
-        for (int depth = 1; depth <= reach; depth += step) {
-            if (field_.pixel(x - static_cast<int>(piece.y() * depth / piece.length),
-                             y + static_cast<int>(piece.x() * depth / piece.length)) < dark_below_)
-                continue;
-            ++light;
-            break;
-        }
-    }
-    return light;
-}
-
 inline Status FrameFinder::find_arms(const BorderCorner& corner) {
-    if (thin_places(corner.in) + thin_places(corner.out) < 2) return Status::not_found;
     const auto chord_of = [](const BorderPiece& piece) {
         return EdgeLine{{256 * piece.first.x, 256 * piece.first.y}, direction_of(piece.x(), piece.y())};
     };

@@ -47,6 +47,10 @@ inline constexpr int upc_e_farthest = 1100;
 /// where its bars lie farther from their own width than half of the way to the middle between both, in 1/64
 /// module.
 inline constexpr int ean_twin_farthest = 32;
+/// Least quiet zones, in 1/256 of what is asked.
+inline constexpr int ean_13_quiet = 256 / 5;
+inline constexpr int ean_8_quiet = 256 / 3;
+inline constexpr int upc_e_quiet = 256 / 2;
 
 struct EanDigit {
     int value = 0;
@@ -143,7 +147,7 @@ constexpr bool read_ean_digits(EanSymbol& symbol, int at, int count, bool begins
         const std::int64_t shared = (2 * own + before + behind) / 4;
         EanDigit digit;
         if (!read_ean_digit(symbol, at + 4 * i, shared, begins_with_bar, digit) &&
-            !read_ean_digit(symbol, at + 4 * i, own, begins_with_bar, digit)) {
+            (own == shared || !read_ean_digit(symbol, at + 4 * i, own, begins_with_bar, digit))) {
             return false;
         }
         values[i] = static_cast<std::uint8_t>(digit.value);
@@ -215,6 +219,16 @@ struct EanEnd {
     int modules;
 };
 
+/// The narrower of both quiet zones, in 1/256 of what is asked: in the modules of the guard beside it, as
+/// those of the other end may be of another size.
+constexpr int ean_quiet(const EanSymbol& symbol, int runs, EanEnd left, EanEnd right) {
+    const int before =
+        quiet_share(symbol.between(-1, 0), symbol.between(0, left.runs), left.runs, left.modules);
+    const int behind = quiet_share(symbol.between(runs, runs + 1), symbol.between(runs - right.runs, runs),
+                                   right.runs, right.modules);
+    return minimum(before, behind);
+}
+
 constexpr void finish_ean(const EanSymbol& symbol, int runs, int digits, Symbology symbology, EanEnd left,
                           EanEnd right, BarReading& reading) {
     reading.symbology = symbology;
@@ -222,12 +236,7 @@ constexpr void finish_ean(const EanSymbol& symbol, int runs, int digits, Symbolo
     reading.first = symbol.first;
     reading.last = symbol.first + runs;
     reading.error = static_cast<int>(symbol.error * 4 / digits);
-    // In the modules of the guard beside it, as those of the other end may be of another size.
-    const int before =
-        quiet_share(symbol.between(-1, 0), symbol.between(0, left.runs), left.runs, left.modules);
-    const int behind = quiet_share(symbol.between(runs, runs + 1), symbol.between(runs - right.runs, runs),
-                                   right.runs, right.modules);
-    reading.quiet = minimum(before, behind);
+    reading.quiet = ean_quiet(symbol, runs, left, right);
 }
 
 constexpr void set_digits(BarReading& reading, const std::uint8_t* digits, int count) {
@@ -240,6 +249,8 @@ inline bool decode_ean_13(EanSymbol symbol, const BarRules& rules, BarReading& r
     constexpr int runs = 59;
     constexpr EanGuard guards[] = {{0, 3, true}, {27, 5, false}, {56, 3, true}};
     if (!match_guards(symbol, runs, ean_13_modules, guards)) return false;
+    // Before the digits, which take long: UPC-A asks for less to the left, and EAN-13 to the right.
+    if (ean_quiet(symbol, runs, {3, 9}, {3, 7}) < ean_13_quiet) return false;
     if (!are_ean_digits_even(symbol, 3, 6) || !are_ean_digits_even(symbol, 32, 6)) return false;
     std::uint8_t digits[13] = {};
     unsigned left = 0;
@@ -256,7 +267,7 @@ inline bool decode_ean_13(EanSymbol symbol, const BarRules& rules, BarReading& r
     BarReading found;
     finish_ean(symbol, runs, 12, as_upc ? Symbology::upc_a : Symbology::ean_13, {3, as_upc ? 9 : 11},
                {3, as_upc ? 9 : 7}, found);
-    if (found.quiet < 256 / 5) return false;
+    if (found.quiet < ean_13_quiet) return false;
     set_digits(found, digits + (as_upc ? 1 : 0), as_upc ? 12 : 13);
     reading = found;
     return true;
@@ -266,6 +277,7 @@ inline bool decode_ean_8(EanSymbol symbol, BarReading& reading) {
     constexpr int runs = 43;
     constexpr EanGuard guards[] = {{0, 3, true}, {19, 5, false}, {40, 3, true}};
     if (!match_guards(symbol, runs, ean_8_modules, guards)) return false;
+    if (ean_quiet(symbol, runs, {3, 7}, {3, 7}) < ean_8_quiet) return false;
     if (!are_ean_digits_even(symbol, 3, 4) || !are_ean_digits_even(symbol, 24, 4)) return false;
     std::uint8_t digits[8] = {};
     unsigned left = 0;
@@ -276,7 +288,7 @@ inline bool decode_ean_8(EanSymbol symbol, BarReading& reading) {
         return false;
     BarReading found;
     finish_ean(symbol, runs, 8, Symbology::ean_8, {3, 7}, {3, 7}, found);
-    if (found.quiet < 256 / 3 || found.error > ean_8_worst) return false;
+    if (found.quiet < ean_8_quiet || found.error > ean_8_worst) return false;
     set_digits(found, digits, 8);
     reading = found;
     return true;
@@ -286,6 +298,9 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     constexpr int runs = 33;
     constexpr EanGuard guards[] = {{0, 3, true}, {27, 6, false}};
     if (!match_guards(symbol, runs, upc_e_modules, guards)) return false;
+    // The left half of an EAN-13 looks like a UPC-E that is followed by a space of up to four modules.
+    if (symbol.between(runs, runs + 1) * 6 < symbol.between(27, 33) * 5) return false;
+    if (ean_quiet(symbol, runs, {3, 9}, {6, 7}) < upc_e_quiet) return false;
     if (!are_ean_digits_even(symbol, 3, 6)) return false;
     std::uint8_t digits[8] = {};
     unsigned parity = 0;
@@ -309,7 +324,7 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     if (digits[0] == 1 && !is_about(symbol.between(32, 33) * 4, bars, 170, 342)) return false;
     // The left half of an EAN-13 looks like a UPC-E that is followed by a space of up to four modules.
     if (symbol.between(runs, runs + 1) * 6 < symbol.between(27, 33) * 5) return false;
-    if (found.quiet < 256 / 2 || found.error > upc_e_worst || symbol.worst > upc_e_farthest) return false;
+    if (found.quiet < upc_e_quiet || found.error > upc_e_worst || symbol.worst > upc_e_farthest) return false;
     set_digits(found, digits, 8);
     reading = found;
     return true;

@@ -30,6 +30,10 @@ struct BarOptions {
     int agreeing_lines = 2;  ///< that a code needs at least; some need more, see bar_lines_needed(). 1..12
 };
 
+/// Work for each pixel of an image's width and height: samples of lines, a unit each, and edges, eight each,
+/// once for every way to see them. Photos without a code take 5000, and 13000 at most.
+inline constexpr int bar_work = 16384;
+
 /// Scratch bytes that read_bars() needs.
 constexpr std::int64_t read_bars_scratch(Size size);
 
@@ -43,7 +47,8 @@ constexpr std::int64_t read_bars_scratch(Size size);
 /// Errors  empty_image; bad_argument; scratch_too_small; not_found; undecided where lines read something on
 ///         which not enough of them agree; buffer_too_small, capacity_exceeded with the first codes in the
 ///         list. Text and list are appended to, and untouched where nothing was read
-/// Time    bounded: at most about a thousand lines
+/// Time    bounded: at most about a thousand lines, and bar_work units of work for
+///         each pixel of width and height; what is read with these is told
 inline Status read_bars(ImageView<const Gray8> src, const BarOptions& options, Span<std::uint8_t> scratch,
                         CodeText& text, ListView<Code> codes);
 
@@ -92,8 +97,9 @@ private:
                   most_bar_candidates) {
         sharp_ = arena.take_unset<std::int16_t>(most_samples(src.size()));
         fields_scratch_ = arena.take_unset<std::uint8_t>(bar_fields_scratch(src.size()));
+        reader_.limit(WorkBudget(most_samples(src.size()) * bar_work));
     }
-    bool done() const { return reader_.settled() >= options_.enough; }
+    bool done() const { return reader_.settled() >= options_.enough || reader_.spent(); }
     bool is_settled(int which) const { return reader_.candidates()[which].settled; }
     /// The sample of a line that lies nearest to a point of it.
     static std::int32_t place_on(const BarLine& line, SubPixelPoint point) {

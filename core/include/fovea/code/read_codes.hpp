@@ -81,7 +81,9 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
         if (failed(doubt)) return doubt;
     }
     if (options.symbologies.contains(Symbology::data_matrix) && left() > 0) {
+        using Effort = ReadDataMatrixOptions::Effort;
         ReadDataMatrixOptions data_matrix;
+        data_matrix.effort = thorough ? Effort::thorough : Effort::quick;
         data_matrix.most_codes = left();
         if (Status s = read_data_matrix(src, data_matrix, scratch, text, codes); failed(s)) return s;
     }

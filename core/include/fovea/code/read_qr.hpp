@@ -18,6 +18,7 @@
 #include <fovea/code/qr_grade.hpp>
 #include <fovea/code/qr_locate.hpp>
 #include <fovea/code/qr_sample.hpp>
+#include <fovea/code/work_budget.hpp>
 #include <fovea/image/bit_view.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/image/pixel.hpp>
@@ -43,6 +44,10 @@ struct QrReadOptions {
     int largest_version = max_qr_version;  ///< 1..40: larger symbols are not read; fewer need less scratch
 };
 
+/// Looks at modules for each pixel of an image, a unit of work each, at all thresholds together, and 1.5
+/// million for a small one. Photos of 640x480 take 2 at most.
+inline constexpr int qr_work = 12;
+
 /// Scratch bytes that read_qr() needs: less where effort and versions are limited.
 constexpr std::int64_t read_qr_scratch(Size size, const QrReadOptions& options = {});
 
@@ -50,7 +55,8 @@ constexpr std::int64_t read_qr_scratch(Size size, const QrReadOptions& options =
 /// or not. Their texts are appended to text and they to codes, those of the clearest finders first.
 ///
 /// Shapes   src 1x1 or larger; modules of a pixel and more
-/// Time     bounded by the pixels, and by 24 finder patterns and 16 tries of three of them for each threshold
+/// Time     bounded by the pixels, for each threshold by 24 finder patterns and 16 tries of three of them,
+///          and by qr_work; what is read with it is told
 /// Scratch  read_qr_scratch(src.size(), options) bytes, undefined afterwards
 /// Errors   empty_image; bad_argument; scratch_too_small; not_found; buffer_too_small where a text that was
 ///          read does not fit; capacity_exceeded where the list is full, with what it holds
@@ -124,6 +130,7 @@ public:
     }
 
     Status read() {
+        budget_ = WorkBudget(full_.size(), qr_work, least_work);
         const bool tiny = full_.width() < tiny_side || full_.height() < tiny_side;
         if (pass(full_, tiny ? Threshold::global : Threshold::fine)) return result();
         if (options_.effort == QrReadOptions::Effort::quick) return result();
@@ -157,7 +164,7 @@ private:
         FinderSearch search(bits_, patterns);
         search.rows(image.height() > tall ? 1 : 0, image.height() > tall ? 2 : 1);
         FinderTriples triples(patterns);
-        for (int i = 0; i < triples.size() && status_ == Status::ok && !enough(); ++i) {
+        for (int i = 0; i < triples.size() && status_ == Status::ok && !enough() && !budget_.spent(); ++i) {
             if (triples.usable(i) && try_triple(triples.corner(i), triples.right(i), triples.below(i)))
                 triples.use(i);
         }
@@ -214,19 +221,24 @@ private:
         const FinderImage image{bits_, corner.inverted};
         QrLocator locator(image);
         if (!locator.begin(corner, right, below)) return false;
-        for (int i = 0; i < locator.sizes(); ++i) {
+        for (int i = 0; i < locator.sizes() && !budget_.spent(); ++i) {
             const int size = locator.size(i);
             if (size > most_) continue;
+            budget_.spend(plane_work + 4 * fit_work(size));
             const int planes = locator.find_planes(size);
             if (planes == 0 || locator.fit(0) < least_fit) continue;
             for (int k = 0; k < planes && locator.fit(k) >= least_fit; ++k) {
                 if (try_plane(locator, image, size, locator.plane(k), false)) return true;
             }
+            if (budget_.spent()) return false;
+            budget_.spend(refine_work * fit_work(size));
             ModulePlane plane = locator.plane(0);
             const int fit = locator.refine(size, plane);
             if (fit < refined_fit) continue;
             if (try_plane(locator, image, size, plane, true)) return true;
             if (fit < settled_fit) continue;
+            if (budget_.spent()) return false;
+            budget_.spend(settle_work * (fit_work(size) + 256));
             locator.settle(size, plane);
             if (try_plane(locator, image, size, plane, true)) return true;
         }
@@ -234,6 +246,8 @@ private:
     }
     bool try_plane(const QrLocator& locator, const FinderImage& image, int size, const ModulePlane& plane,
                    bool gray) {
+        // Sampled and decoded once, and with levels thrice more, in windows of 81 of them.
+        budget_.spend(std::int64_t{size} * size * (gray ? 70 : 6));
         QrGrid grid;
         locator.find_grid(size, plane, grid);
         if (!grid_inside(grid, size, image_.size())) return false;
@@ -284,6 +298,14 @@ private:
                 SubPixel::from_raw(saturate_cast<std::int32_t>(place.y))};
     }
 
+    /// Looks of QrLocator::fit().
+    static constexpr int fit_work(int size) { return 172 + 2 * size; }
+
+    static constexpr int least_work = 3 << 19;
+    static constexpr int plane_work =
+        8192;  ///< of QrLocator::find_planes(), most of it for the alignment pattern
+    static constexpr int refine_work = 80;   ///< times that QrLocator::refine() fits
+    static constexpr int settle_work = 144;  ///< times that QrLocator::settle() looks at modules
     static constexpr int tiny_side = 64;
     static constexpr int tall = 120;  ///< px, from which on every other row is looked at
     static constexpr int finest_block = 8;
@@ -310,6 +332,7 @@ private:
     ImageView<const Gray8> half_;
     ImageView<const Gray8> image_;
     BitView<BitWord> bits_;
+    WorkBudget budget_;
     Status status_ = Status::ok;
 };
 
