@@ -129,7 +129,8 @@ inline void code_bar_tables(Workspace&, Digest& digest) {
     digest.add(text.begin_segment(26));
     digest.add(text.segments().size());
     BarRules rules;
-    digest.add(bar_symbologies(), SymbologySet(), SymbologySet(Symbology::qr), is_valid(rules));
+    digest.add(bar_symbologies(), retail_symbologies(), SymbologySet(), SymbologySet(Symbology::qr),
+               is_valid(rules));
     rules.interleaved_shortest = 7;
     digest.add(is_valid(rules));
 }
@@ -288,6 +289,7 @@ inline void code_read_bars(Workspace& work, Digest& digest) {
         FOVEA_ASSERT(bar_stream_scratch(image.width()) <= work.scratch_span().size());
         BarStream stream(image.width(), {}, work.scratch_span());
         for (int y = 0; y < image.height(); ++y) digest.add(stream.take({image.row(y), image.width()}));
+        digest.add(stream.idle_scratch().size());
         CodeText text{Span<std::uint8_t>(room)};
         List<Code, 2> codes;
         digest.add(stream.finish(text, codes));
