@@ -69,7 +69,7 @@ inline void code_blurred_ean(Workspace& work, Digest& digest) {
                              of_13 ? Symbology::ean_13 : Symbology::ean_8, scratch);
         digest.add(ean.status());
         if (!ean.ok()) continue;
-        digest.add(*ean, BlurredVotes::is_clear(*ean), votes.take(*ean));
+        digest.add(*ean, votes.take(*ean));
         digest.add(votes.decided(), votes.votes(), votes.best());
     }
     digest.add(read_blurred_ean({}, {}, Symbology::ean_13, scratch).status());

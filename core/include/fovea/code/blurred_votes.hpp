@@ -27,11 +27,6 @@ public:
     static constexpr std::int32_t clear_ean_8_margin = Ratio::one * 3 / 2;
     static constexpr int profiles_needed = 2;
 
-    static constexpr bool is_clear(const BlurredEan& reading) {
-        return reading.margin.raw() >=
-               (reading.symbology == Symbology::ean_8 ? clear_ean_8_margin : clear_margin);
-    }
-
     /// The profiles so far with these digits and a clear margin; 0 if this is none.
     inline int take(const BlurredEan& reading);
     /// True if the digits that most profiles gave may be told.
@@ -67,9 +62,18 @@ private:
 
 // ---- Implementation ---------------------------------------------------------------
 
+namespace detail {
+
+constexpr bool is_clear_reading(const BlurredEan& reading) {
+    return reading.margin.raw() >= (reading.symbology == Symbology::ean_8 ? BlurredVotes::clear_ean_8_margin
+                                                                          : BlurredVotes::clear_margin);
+}
+
+}  // namespace detail
+
 inline int BlurredVotes::take(const BlurredEan& reading) {
     if (reading.margin.raw() < doubtful_margin) return 0;
-    const bool clear = is_clear(reading);
+    const bool clear = detail::is_clear_reading(reading);
     int at = 0;
     while (at < count_ && !same(seen_[at].best, reading)) ++at;
     if (at == most) {

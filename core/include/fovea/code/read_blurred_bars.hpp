@@ -160,7 +160,7 @@ private:
                 if (!reading || (found && reading->margin <= best.margin)) continue;
                 best = *reading;
                 found = true;
-                if (BlurredVotes::is_clear(best)) return true;
+                if (is_clear_reading(best)) return true;
             }
         }
         return found;
