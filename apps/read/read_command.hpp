@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -173,18 +174,19 @@ inline constexpr int text_room = 65536;
 /// Reads the codes of a picture, in the order in which a page is read.
 inline Status read_picture(const Picture<Gray8>& image, const ReadCodesOptions& options,
                            std::vector<ReadCode>& read) {
-    std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_codes_scratch(image.size)));
-    std::vector<std::uint8_t> room(text_room);
+    // Not set to 0, which takes as long as a small picture.
+    const auto scratch_bytes = static_cast<std::ptrdiff_t>(read_codes_scratch(image.size));
+    const std::unique_ptr<std::uint8_t[]> scratch(new std::uint8_t[static_cast<std::size_t>(scratch_bytes)]);
+    const std::unique_ptr<std::uint8_t[]> room(new std::uint8_t[text_room]);
     std::vector<Code> codes(static_cast<std::size_t>(options.most_codes));
     int count = 0;
-    CodeText text({room.data(), text_room});
-    const Status status =
-        read_codes(image.view(), options, {scratch.data(), static_cast<std::ptrdiff_t>(scratch.size())}, text,
-                   ListView<Code>(codes.data(), options.most_codes, &count));
-    std::vector<std::uint8_t> utf8(4 * static_cast<std::size_t>(text_room));
+    CodeText text({room.get(), text_room});
+    const Status status = read_codes(image.view(), options, {scratch.get(), scratch_bytes}, text,
+                                     ListView<Code>(codes.data(), options.most_codes, &count));
     for (int i = 0; i < count; ++i) {
         const Code& code = codes[static_cast<std::size_t>(i)];
-        const std::uint8_t* first = room.data() + code.text_first;
+        std::vector<std::uint8_t> utf8(static_cast<std::size_t>(text_utf8_room(code.text_size)));
+        const std::uint8_t* first = room.get() + code.text_first;
         ReadCode one{code, "", std::string(first, first + code.text_size)};
         const Result<int> size = text_utf8(text, code.text_first, code.text_size,
                                            {utf8.data(), static_cast<std::ptrdiff_t>(utf8.size())});

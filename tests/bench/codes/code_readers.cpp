@@ -66,9 +66,28 @@ struct Score {
     int read[4] = {};
     int other = 0;
     std::vector<double> milliseconds;
+
+    void add(const Score& more) {
+        for (int turn = 0; turn < 4; ++turn) read[turn] += more.read[turn];
+        other += more.other;
+        milliseconds.insert(milliseconds.end(), more.milliseconds.begin(), more.milliseconds.end());
+    }
 };
 
-void measure(const std::string& set, const std::vector<CodeReader>& all) {
+void tell(const std::string& set, const std::vector<CodeReader>& all, std::vector<Score> scores) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        Score& score = scores[i];
+        std::sort(score.milliseconds.begin(), score.milliseconds.end());
+        std::printf("| %s | %zu | %s | %d / %d / %d / %d | %d | %.2f | %.1f |\n", i == 0 ? set.c_str() : "",
+                    score.milliseconds.size() / 4, all[i].name, score.read[0], score.read[1], score.read[2],
+                    score.read[3], score.other, score.milliseconds[score.milliseconds.size() / 2],
+                    score.milliseconds.back());
+        std::fflush(stdout);
+    }
+}
+
+/// Adds to the total.
+void measure(const std::string& set, const std::vector<CodeReader>& all, std::vector<Score>& total) {
     std::vector<Photo> pictures = test::photos(set);
     if (pictures.empty()) return;
     std::vector<Score> scores(all.size());
@@ -87,15 +106,8 @@ void measure(const std::string& set, const std::vector<CodeReader>& all) {
             photo.picture = test::turned(photo.picture);
         }
     }
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        Score& score = scores[i];
-        std::sort(score.milliseconds.begin(), score.milliseconds.end());
-        std::printf("| %s | %zu | %s | %d / %d / %d / %d | %d | %.2f | %.1f |\n", i == 0 ? set.c_str() : "",
-                    pictures.size(), all[i].name, score.read[0], score.read[1], score.read[2], score.read[3],
-                    score.other, score.milliseconds[score.milliseconds.size() / 2],
-                    score.milliseconds.back());
-        std::fflush(stdout);
-    }
+    for (std::size_t i = 0; i < all.size(); ++i) total[i].add(scores[i]);
+    tell(set, all, scores);
 }
 
 }  // namespace
@@ -118,5 +130,7 @@ int main(int count, char** words) {
         "most |\n"
         "|---|---|---|---|---|---|---|\n");
     const std::vector<CodeReader> all = readers();
-    for (const std::string& set : sets) measure(set, all);
+    std::vector<Score> total(all.size());
+    for (const std::string& set : sets) measure(set, all, total);
+    if (!total[0].milliseconds.empty()) tell("all sets", all, total);
 }
