@@ -26,10 +26,10 @@ struct QrMemory {
     static constexpr int largest_version = LargestVersion;
     static constexpr std::size_t text_bytes = TextBytes;
 
-    static constexpr QrReadOptions options() {
-        QrReadOptions options;
-        options.effort = QrReadOptions::Effort::several;
-        options.max_codes = 2;
+    static constexpr ReadQrOptions options() {
+        ReadQrOptions options;
+        options.effort = ReadQrOptions::Effort::several;
+        options.most_codes = 2;
         options.largest_version = LargestVersion;
         return options;
     }
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    using Codes = FrameCodes<Memory::options().max_codes, Memory::text_bytes>;
+    using Codes = FrameCodes<Memory::options().most_codes, Memory::text_bytes>;
     static_assert(Codes::utf8_bytes <= std::int64_t{sizeof(Memory::scratch)},
                   "a text must find room as UTF-8");
 

@@ -276,9 +276,9 @@ inline void code_read_bars(Workspace& work, Digest& digest) {
         digest.add(find_bar_fields(image, work.scratch_span(), fields));
         digest.add(fields.span());
         for (int effort = 0; effort < 3; ++effort) {
-            BarOptions options;
+            ReadBarsOptions options;
             options.effort = effort;
-            options.enough = 1 + effort;
+            options.most_codes = 1 + effort;
             CodeText text{Span<std::uint8_t>(room)};
             List<Code, 2> codes;
             FOVEA_ASSERT(read_bars_scratch(image.size()) <= work.scratch_span().size());

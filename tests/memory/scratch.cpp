@@ -61,8 +61,8 @@ void print_catalogue() {
 int main() {
     LocateRule opened;
     opened.opening = 3;
-    QrReadOptions few;
-    few.effort = QrReadOptions::Effort::several;
+    ReadQrOptions few;
+    few.effort = ReadQrOptions::Effort::several;
     few.largest_version = 6;
     const struct {
         const char* name;

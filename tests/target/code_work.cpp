@@ -282,10 +282,10 @@ void measure(const char* kind, const std::string& name, const Canvas& canvas) {
         return read_codes(image, ReadCodesOptions(), scratch, text, codes);
     });
     count(kind, picture, "read_qr", [&](CodeText& text, ListView<Code>& codes) {
-        return read_qr(image, QrReadOptions(), scratch, text, codes);
+        return read_qr(image, ReadQrOptions(), scratch, text, codes);
     });
     count(kind, picture, "read_bars", [&](CodeText& text, ListView<Code>& codes) {
-        return read_bars(image, BarOptions(), scratch, text, codes);
+        return read_bars(image, ReadBarsOptions(), scratch, text, codes);
     });
     count(kind, picture, "read_data_matrix", [&](CodeText& text, ListView<Code>& codes) {
         return read_data_matrix(image, ReadDataMatrixOptions(), scratch, text, codes);

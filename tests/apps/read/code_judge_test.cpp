@@ -41,7 +41,8 @@ struct Judging {
         return told(found, judging.codes());
     }
     std::string teach(const CodeScene& scene) {
-        return told(judging.teach(scene.view(), job, scratch_for(scene)), judging.taught());
+        const CodesVerdict found = judging.teach(scene.view(), job, scratch_for(scene));
+        return told(found, judging.taught());
     }
     CodeJob job;
     CodeJudge judging;

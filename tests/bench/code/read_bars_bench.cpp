@@ -46,7 +46,7 @@ void time_read(Row& row, Picture<Gray8> picture) {
     row.ours([&] {
         CodeText text{Span<std::uint8_t>(room.room)};
         room.codes.clear();
-        consume(read_bars(src.view(), BarOptions(), room.span(), text, room.codes));
+        consume(read_bars(src.view(), ReadBarsOptions(), room.span(), text, room.codes));
     });
 }
 

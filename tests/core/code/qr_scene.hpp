@@ -137,7 +137,7 @@ struct QrAnswer {
     std::vector<Code> codes;
     std::vector<std::string> texts;
 };
-inline QrAnswer read_scene(const QrScene& scene, const QrReadOptions& options = {}) {
+inline QrAnswer read_scene(const QrScene& scene, const ReadQrOptions& options = {}) {
     const std::vector<Gray8> pixels = scene.pixels();
     std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_qr_scratch(scene.size(), options)));
     std::vector<std::uint8_t> room(8000);

@@ -15,7 +15,7 @@ struct BarAnswer {
     std::string text;
     List<Code, 6> codes;
 };
-BarAnswer read(const BarPicture& picture, const BarOptions& options = {}) {
+BarAnswer read(const BarPicture& picture, const ReadBarsOptions& options = {}) {
     std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_bars_scratch(picture.size)));
     std::uint8_t room[400];
     CodeText text{Span<std::uint8_t>(room)};
@@ -105,12 +105,12 @@ TEST(ReadBars, SeveralCodesAreReadOnceEach) {
         scene.degrees = 15 * i;
         draw_bars(picture, bars_of(kinds[i], texts[i]), scene, random);
     }
-    BarOptions options;
-    options.enough = 6;
+    ReadBarsOptions options;
+    options.most_codes = 6;
     const BarAnswer all = read(picture, options);
     ASSERT_EQ(all.codes.size(), 4);
     for (int i = 0; i < 4; ++i) EXPECT_NE(all.text.find(texts[i]), std::string::npos);
-    options.enough = 1;
+    options.most_codes = 1;
     EXPECT_EQ(read(picture, options).codes.size(), 1);
 }
 
@@ -122,7 +122,7 @@ TEST(ReadBars, AppendsAddOnsWhereTheyAreWanted) {
     BarPicture picture({520, 400});
     draw_bars(picture, bars, {}, random);
     EXPECT_EQ(read(picture).text, "9780905705712");
-    BarOptions options;
+    ReadBarsOptions options;
     options.rules.add_on = AddOn::appended;
     const BarAnswer answer = read(picture, options);
     EXPECT_EQ(answer.text, "978090570571252495");
@@ -182,8 +182,8 @@ TEST(ReadBars, ChecksItsArgumentsAndLeavesItsOutputs) {
     CodeText text{Span<std::uint8_t>(room)};
     List<Code, 1> codes;
     EXPECT_EQ(read_bars({}, {}, span, text, codes), Status::empty_image);
-    BarOptions wrong;
-    wrong.enough = 0;
+    ReadBarsOptions wrong;
+    wrong.most_codes = 0;
     EXPECT_EQ(read_bars(picture.view(), wrong, span, text, codes), Status::bad_argument);
     wrong = {};
     wrong.effort = 3;

@@ -187,8 +187,8 @@ TEST(ReadQr, ReadsAllSymbolsOfAnImage) {
     QrAnswer answer = read_scene(scene);
     std::sort(answer.texts.begin(), answer.texts.end());
     EXPECT_EQ(answer.texts, (std::vector<std::string>{"four", "one", "three", "two"}));
-    QrReadOptions options;
-    options.max_codes = 2;
+    ReadQrOptions options;
+    options.most_codes = 2;
     EXPECT_EQ(read_scene(scene, options).texts.size(), 2U);
 }
 
@@ -207,8 +207,8 @@ TEST(ReadQr, ReadsNothingInNoiseAndStripes) {
 }
 
 TEST(ReadQr, QuickIsOneThreshold) {
-    QrReadOptions quick;
-    quick.effort = QrReadOptions::Effort::quick;
+    ReadQrOptions quick;
+    quick.effort = ReadQrOptions::Effort::quick;
     QrScene scene(150, 150);
     EXPECT_EQ(read_scene(scene, quick).status, Status::not_found);
     scene.draw(DrawnQr("quick"), {75, 75, 4, 0.4, 0, 0, false});
@@ -226,8 +226,8 @@ bool same_code(const Code& a, const Code& b) {
 
 TEST(ReadQr, FewerVersionsAreReadAsAllAreAndLargerOnesAreNot) {
     Random random(3041);
-    QrReadOptions few;
-    few.effort = QrReadOptions::Effort::several;
+    ReadQrOptions few;
+    few.effort = ReadQrOptions::Effort::several;
     for (int version = 1; version <= 8; ++version) {
         QrScene scene(320, 240);
         scene.draw(DrawnQr("few", of_version(version)), {160, 120, 4, version * 0.4, 0, 0, false});
@@ -246,8 +246,8 @@ TEST(ReadQr, FewerVersionsAreReadAsAllAreAndLargerOnesAreNot) {
 }
 
 TEST(ReadQr, FewerVersionsAndThresholdsNeedLessScratch) {
-    QrReadOptions few;
-    few.effort = QrReadOptions::Effort::several;
+    ReadQrOptions few;
+    few.effort = ReadQrOptions::Effort::several;
     few.largest_version = 6;
     // With a frame of 75 KiB, and 7 KiB for all else, 100 KiB.
     EXPECT_LT(read_qr_scratch({320, 240}, few), 18 * 1024);
@@ -256,7 +256,7 @@ TEST(ReadQr, FewerVersionsAndThresholdsNeedLessScratch) {
     const std::int64_t every_version = read_qr_scratch(large, few);
     few.largest_version = 1;
     EXPECT_LT(read_qr_scratch(large, few), every_version);
-    few.effort = QrReadOptions::Effort::quick;
+    few.effort = ReadQrOptions::Effort::quick;
     EXPECT_LE(read_qr_scratch(large, few), every_version);
     // No image shows more modules than it has pixels, and four.
     few = {};
@@ -269,10 +269,10 @@ TEST(ReadQr, SeveralThresholdsReadWhatOneDoesNot) {
     // Two grey levels that are nearer than blocks tell apart: the threshold of the whole image does.
     QrScene scene(160, 150, 140);
     scene.draw(DrawnQr("faint"), {80, 75, 4, 0, 0, 0, false}, 122);
-    QrReadOptions options;
-    options.effort = QrReadOptions::Effort::quick;
+    ReadQrOptions options;
+    options.effort = ReadQrOptions::Effort::quick;
     EXPECT_EQ(read_scene(scene, options).status, Status::not_found);
-    options.effort = QrReadOptions::Effort::several;
+    options.effort = ReadQrOptions::Effort::several;
     EXPECT_EQ(only_text(read_scene(scene, options)), "faint");
 }
 
@@ -287,11 +287,11 @@ TEST(ReadQr, SaysWhatIsWrong) {
     CodeText text({room, 4});
     List<Code, 1> codes;
     EXPECT_EQ(read_qr({}, {}, whole, text, codes), Status::empty_image);
-    QrReadOptions none;
-    none.max_codes = 0;
+    ReadQrOptions none;
+    none.most_codes = 0;
     EXPECT_EQ(read_qr(image, none, whole, text, codes), Status::bad_argument);
     for (const int version : {0, 41}) {
-        QrReadOptions wrong;
+        ReadQrOptions wrong;
         wrong.largest_version = version;
         EXPECT_EQ(read_qr(image, wrong, whole, text, codes), Status::bad_argument);
     }

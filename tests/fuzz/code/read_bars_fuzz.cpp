@@ -48,8 +48,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             static_cast<Gray8>(data[4 + x % (size - 4)] ^ (data[2] % 4 == 0 ? data[i % size] & 7 : 0));
     }
     const ImageView<const Gray8> image(pixels.data(), picture_size, picture_size.width);
-    BarOptions options;
-    options.enough = 1 + data[2] % 3;
+    ReadBarsOptions options;
+    options.most_codes = 1 + data[2] % 3;
     options.effort = data[3] % 3;
     options.rules.add_on = data[3] % 2 == 0 ? AddOn::ignored : AddOn::appended;
     options.rules.interleaved_shortest = 2;

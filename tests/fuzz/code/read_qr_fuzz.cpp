@@ -63,10 +63,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t coun
     std::vector<std::uint8_t> room(input.room);
     CodeText text({room.data(), static_cast<std::ptrdiff_t>(room.size())});
     List<Code, 2> codes;
-    QrReadOptions options;
-    if (input.effort % 4 == 0) options.effort = QrReadOptions::Effort::quick;
+    ReadQrOptions options;
+    if (input.effort % 4 == 0) options.effort = ReadQrOptions::Effort::quick;
     if (input.effort % 4 == 1) {
-        options.effort = QrReadOptions::Effort::several;
+        options.effort = ReadQrOptions::Effort::several;
         options.largest_version = 1 + input.effort / 4 % max_qr_version;
     }
     std::vector<std::uint8_t> scratch(static_cast<std::size_t>(read_qr_scratch(size, options)));

@@ -23,7 +23,7 @@ namespace fovea {
 struct BarStreamOptions {
     BarRules rules;
     int row_step = 2;        ///< every so many rows one is read: more leave the chip more time. 1..64
-    int agreeing_lines = 2;  ///< as in BarOptions
+    int agreeing_lines = 2;  ///< as in ReadBarsOptions
 };
 
 /// Codes that a stream keeps in mind.

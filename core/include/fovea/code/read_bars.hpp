@@ -23,10 +23,10 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-struct BarOptions {
+struct ReadBarsOptions {
     BarRules rules;
-    int enough = 1;  ///< codes after which the search ends: more take longer, as the whole image is seen
-    int effort = 2;  ///< 0 rows and columns, 1 and tilted lines, 2 and every way to see weak edges
+    int most_codes = 1;  ///< codes after which the search ends: more take longer, as the whole image is seen
+    int effort = 2;      ///< 0 rows and columns, 1 and tilted lines, 2 and every way to see weak edges
     int agreeing_lines = 2;  ///< that a code needs at least; some need more, see bar_lines_needed(). 1..12
 };
 
@@ -49,8 +49,8 @@ constexpr std::int64_t read_bars_scratch(Size size);
 ///         list. Text and list are appended to, and untouched where nothing was read
 /// Time    bounded: at most about a thousand lines, and bar_work units of work for
 ///         each pixel of width and height; what is read with these is told
-inline Status read_bars(ImageView<const Gray8> src, const BarOptions& options, Span<std::uint8_t> scratch,
-                        CodeText& text, ListView<Code> codes);
+inline Status read_bars(ImageView<const Gray8> src, const ReadBarsOptions& options,
+                        Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -61,7 +61,7 @@ inline constexpr int most_bar_fields = 12;
 
 class BarSearch {
 public:
-    BarSearch(ImageView<const Gray8> src, const BarOptions& options, Span<std::uint8_t> scratch)
+    BarSearch(ImageView<const Gray8> src, const ReadBarsOptions& options, Span<std::uint8_t> scratch)
         : BarSearch(src, options, Arena(scratch)) {}
     static constexpr std::int64_t most_samples(Size size) { return std::int64_t{size.width} + size.height; }
     static constexpr std::int64_t scratch_bytes(Size size) {
@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    BarSearch(ImageView<const Gray8> src, const BarOptions& options, Arena arena)
+    BarSearch(ImageView<const Gray8> src, const ReadBarsOptions& options, Arena arena)
         : src_(src),
           options_(options),
           reader_(options.rules, options.agreeing_lines, arena, most_samples(src.size()),
@@ -99,7 +99,7 @@ private:
         fields_scratch_ = arena.take_unset<std::uint8_t>(bar_fields_scratch(src.size()));
         reader_.limit(WorkBudget(most_samples(src.size()) * bar_work));
     }
-    bool done() const { return reader_.settled() >= options_.enough || reader_.spent(); }
+    bool done() const { return reader_.settled() >= options_.most_codes || reader_.spent(); }
     bool is_settled(int which) const { return reader_.candidates()[which].settled; }
     /// The sample of a line that lies nearest to a point of it.
     static std::int32_t place_on(const BarLine& line, SubPixelPoint point) {
@@ -198,7 +198,7 @@ private:
     }
 
     ImageView<const Gray8> src_;
-    const BarOptions& options_;
+    const ReadBarsOptions& options_;
     BarLineReader reader_;
     Span<std::int16_t> sharp_;
     Span<std::uint8_t> fields_scratch_;
@@ -208,10 +208,10 @@ private:
 
 constexpr std::int64_t read_bars_scratch(Size size) { return detail::BarSearch::scratch_bytes(size); }
 
-inline Status read_bars(ImageView<const Gray8> src, const BarOptions& options, Span<std::uint8_t> scratch,
-                        CodeText& text, ListView<Code> codes) {
+inline Status read_bars(ImageView<const Gray8> src, const ReadBarsOptions& options,
+                        Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes) {
     if (src.empty()) return Status::empty_image;
-    if (!is_valid(options.rules) || options.enough < 1 || options.effort < 0 || options.effort > 2 ||
+    if (!is_valid(options.rules) || options.most_codes < 1 || options.effort < 0 || options.effort > 2 ||
         options.agreeing_lines < 1 || options.agreeing_lines > BarCandidate::most_offsets) {
         return Status::bad_argument;
     }

@@ -65,17 +65,17 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
     };
     Status doubt = Status::not_found;
     if (options.symbologies.contains(Symbology::qr)) {
-        QrReadOptions qr;
-        qr.effort = thorough ? QrReadOptions::Effort::thorough : QrReadOptions::Effort::quick;
-        qr.max_codes = left();
+        ReadQrOptions qr;
+        qr.effort = thorough ? ReadQrOptions::Effort::thorough : ReadQrOptions::Effort::quick;
+        qr.most_codes = left();
         if (Status s = read_qr(src, qr, scratch, text, codes); failed(s)) return s;
     }
     const SymbologySet bars = options.symbologies & bar_symbologies();
     if (!bars.empty() && left() > 0) {
-        BarOptions rules;
+        ReadBarsOptions rules;
         rules.rules = options.rules;
         rules.rules.symbologies = bars;
-        rules.enough = left();
+        rules.most_codes = left();
         rules.effort = thorough ? 2 : 1;
         doubt = read_bars(src, rules, scratch, text, codes);
         if (failed(doubt)) return doubt;

@@ -31,7 +31,7 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-struct QrReadOptions {
+struct ReadQrOptions {
     /// What is tried on an image in which nothing was read yet: more takes longer where no code is.
     enum class Effort : std::uint8_t {
         quick,     ///< one threshold
@@ -40,7 +40,7 @@ struct QrReadOptions {
     };
 
     Effort effort = Effort::thorough;
-    int max_codes = 16;                    ///< 1 or more: looks for no more
+    int most_codes = 16;                   ///< 1 or more: looks for no more
     int largest_version = max_qr_version;  ///< 1..40: larger symbols are not read; fewer need less scratch
 };
 
@@ -49,7 +49,7 @@ struct QrReadOptions {
 inline constexpr int qr_work = 12;
 
 /// Scratch bytes that read_qr() needs: less where effort and versions are limited.
-constexpr std::int64_t read_qr_scratch(Size size, const QrReadOptions& options = {});
+constexpr std::int64_t read_qr_scratch(Size size, const ReadQrOptions& options = {});
 
 /// Reads the QR codes of an image, in any direction, in perspective, dark on light or light on dark, mirrored
 /// or not. Their texts are appended to text and they to codes, those of the clearest finders first.
@@ -63,7 +63,7 @@ constexpr std::int64_t read_qr_scratch(Size size, const QrReadOptions& options =
 /// Source   finder patterns as ISO/IEC 18004, clause 12 b), tells; then the plane through their centres and
 ///          the meeting of their outer edges or the alignment pattern, moved until the patterns that are
 ///          known fit best
-inline Status read_qr(ImageView<const Gray8> src, const QrReadOptions& options, Span<std::uint8_t> scratch,
+inline Status read_qr(ImageView<const Gray8> src, const ReadQrOptions& options, Span<std::uint8_t> scratch,
                       CodeText& text, ListView<Code> codes);
 
 // ---- Implementation ---------------------------------------------------------------
@@ -73,14 +73,14 @@ namespace detail {
 class QrReader {
 public:
     /// The largest symbol that is read: one of which an image shows every module.
-    static constexpr int most_modules(Size size, const QrReadOptions& options) {
+    static constexpr int most_modules(Size size, const ReadQrOptions& options) {
         return clamp(minimum(size.width, size.height) + 4, qr_size(min_qr_version),
                      qr_size(options.largest_version));
     }
-    static constexpr bool is_thorough(const QrReadOptions& options) {
-        return options.effort == QrReadOptions::Effort::thorough;
+    static constexpr bool is_thorough(const ReadQrOptions& options) {
+        return options.effort == ReadQrOptions::Effort::thorough;
     }
-    static constexpr std::int64_t threshold_scratch(Size size, const QrReadOptions& options) {
+    static constexpr std::int64_t threshold_scratch(Size size, const ReadQrOptions& options) {
         const std::int64_t narrow = arena_bytes<std::uint8_t>(adaptive_threshold_scratch(size, narrow_side)) +
                                     arena_bytes<Gray8>(std::int64_t{size.width} * band_rows);
         return maximum(maximum(local_threshold_scratch(size, finest_block), arena_bytes<Histogram>(1)),
@@ -96,19 +96,19 @@ public:
                arena_bytes<BitWord>(std::int64_t{bit_words(modules)} * most) +
                arena_bytes<std::int16_t>(most * most) + arena_bytes<std::uint8_t>(decode_scratch(modules));
     }
-    static constexpr std::int64_t shared_scratch(Size size, const QrReadOptions& options) {
+    static constexpr std::int64_t shared_scratch(Size size, const ReadQrOptions& options) {
         return maximum(threshold_scratch(size, options), reading_scratch(most_modules(size, options)));
     }
-    static constexpr std::int64_t half_scratch(Size size, const QrReadOptions& options) {
+    static constexpr std::int64_t half_scratch(Size size, const ReadQrOptions& options) {
         return is_thorough(options) ? Size{size.width / 2, size.height / 2}.area() : 0;
     }
-    static constexpr std::int64_t scratch(Size size, const QrReadOptions& options) {
+    static constexpr std::int64_t scratch(Size size, const ReadQrOptions& options) {
         return arena_bytes<BitWord>(std::int64_t{bit_words(size.width)} * size.height) +
                arena_bytes<Gray8>(half_scratch(size, options)) +
                arena_bytes<std::uint8_t>(shared_scratch(size, options));
     }
 
-    QrReader(ImageView<const Gray8> src, const QrReadOptions& options, Span<std::uint8_t> scratch,
+    QrReader(ImageView<const Gray8> src, const ReadQrOptions& options, Span<std::uint8_t> scratch,
              CodeText& text, ListView<Code> codes)
         : full_(src),
           options_(options),
@@ -133,7 +133,7 @@ public:
         budget_ = WorkBudget(full_.size(), qr_work, least_work);
         const bool tiny = full_.width() < tiny_side || full_.height() < tiny_side;
         if (pass(full_, tiny ? Threshold::global : Threshold::fine)) return result();
-        if (options_.effort == QrReadOptions::Effort::quick) return result();
+        if (options_.effort == ReadQrOptions::Effort::quick) return result();
         if (pass(full_, tiny ? Threshold::fine : Threshold::global)) return result();
         if (pass(full_, Threshold::coarse)) return result();
         if (!is_thorough(options_)) return result();
@@ -170,7 +170,7 @@ private:
         }
         return codes_.size() > first_ || status_ != Status::ok;
     }
-    bool enough() const { return codes_.size() - first_ >= options_.max_codes; }
+    bool enough() const { return codes_.size() - first_ >= options_.most_codes; }
     bool binarize(Threshold threshold) {
         if (threshold == Threshold::global) {
             Arena arena(threshold_room_);
@@ -317,7 +317,7 @@ private:
     static constexpr int settled_fit = 850;
 
     ImageView<const Gray8> full_;
-    QrReadOptions options_;
+    ReadQrOptions options_;
     CodeText& text_;
     ListView<Code> codes_;
     int first_;
@@ -338,14 +338,14 @@ private:
 
 }  // namespace detail
 
-constexpr std::int64_t read_qr_scratch(Size size, const QrReadOptions& options) {
+constexpr std::int64_t read_qr_scratch(Size size, const ReadQrOptions& options) {
     return detail::QrReader::scratch(size, options);
 }
 
-inline Status read_qr(ImageView<const Gray8> src, const QrReadOptions& options, Span<std::uint8_t> scratch,
+inline Status read_qr(ImageView<const Gray8> src, const ReadQrOptions& options, Span<std::uint8_t> scratch,
                       CodeText& text, ListView<Code> codes) {
     if (src.empty()) return Status::empty_image;
-    if (options.max_codes < 1 || options.largest_version < min_qr_version ||
+    if (options.most_codes < 1 || options.largest_version < min_qr_version ||
         options.largest_version > max_qr_version)
         return Status::bad_argument;
     if (scratch.size() < read_qr_scratch(src.size(), options)) return Status::scratch_too_small;
