@@ -19,6 +19,7 @@
 #include <fovea/hal/frame_source.hpp>
 #include <fovea/image/image_view.hpp>
 #include <fovea/linux/fault.hpp>
+#include <fovea/number/integer.hpp>
 
 #include <daemon/camera_keeper.hpp>
 #include <daemon/command.hpp>
@@ -31,6 +32,7 @@
 #include <daemon/jobs.hpp>
 #include <daemon/judge.hpp>
 #include <daemon/tally.hpp>
+#include <daemon/teaching.hpp>
 #include <daemon/text_buffer.hpp>
 #include <daemon/verdict_lines.hpp>
 #include <daemon/world.hpp>
@@ -83,7 +85,6 @@ private:
     void obey(const SerialCommand& command);
     CommandError change_job(const SerialCommand& command, TextBuffer& text);
     CommandError begin_teach(const SerialCommand& command);
-    void teach(ImageView<const Gray8> picture);
     /// TEACH says which codes the job allows.
     bool takes_codes() const {
         return job_ != 0 && world_.jobs()[job_].reads && world_.jobs()[job_].codes.taught;
@@ -111,7 +112,7 @@ private:
     std::uint64_t damaged_pictures_ = 0;
     std::int64_t busy_until_us_ = 0;
     bool has_last_ = false;
-    Text<longest_job_name> teach_;
+    Teaching<World> teaching_{world_};
     char line_room_[16384];
     /// For a result, and what LAST? has around it.
     char reply_room_[16384 + 64];
@@ -123,6 +124,7 @@ private:
 template <class World>
 bool Daemon<World>::take_job(int number) {
     if (number < 1 || number > world_.jobs().size()) return false;
+    teaching_.give_up("another_job", Status::not_found, events_);
     job_ = number;
     judge_.forget();
     return true;
@@ -204,7 +206,8 @@ template <class World>
 CommandError Daemon<World>::begin_teach(const SerialCommand& command) {
     if (!options_.samples && !takes_codes()) return CommandError::keeps_none;
     if (!ready()) return CommandError::not_ready;
-    teach_ = Text<longest_job_name>().add(command.name);
+    teaching_.give_up("another_teach", Status::not_found, events_);
+    teaching_.begin(command.name, options_.samples, takes_codes());
     // At once, so that no verdict is by codes that are to be replaced, whatever becomes of the next frame.
     judge_.forget_taught();
     return CommandError::none;
@@ -242,13 +245,15 @@ void Daemon<World>::count_missed(std::int64_t time_us) {
 template <class World>
 void Daemon<World>::take_frame() {
     const bool free = options_.source == TriggerSource::free;
-    const bool wanted = free || waiting_ || !teach_.empty();
+    const bool teaching = teaching_.pending();
+    const bool wanted = free || waiting_ || teaching;
     const std::int64_t oldest_us = world_.frame_interval_us() * 3 / 2;
     // A frame that nobody waits for goes back at once: so the camera is heard, and what comes is fresh.
-    const FramePolicy policy = waiting_                        ? FramePolicy::after_trigger
+    const FramePolicy policy = waiting_ || teaching            ? FramePolicy::after_trigger
                                : free && !options_.every_frame ? FramePolicy::latest
                                                                : FramePolicy::every;
-    const Status got = world_.camera().fetch(policy, waiting_ ? trigger_us_ : oldest_us, frame_);
+    const std::int64_t asked_us = maximum(waiting_ ? trigger_us_ : 0, teaching ? teaching_.since_us() : 0);
+    const Status got = world_.camera().fetch(policy, waiting_ || teaching ? asked_us : oldest_us, frame_);
     events_.tell_camera();
     if (got == Status::ok && wanted && job_ != 0) {
         judge_frame(frame_.info());
@@ -256,22 +261,11 @@ void Daemon<World>::take_frame() {
         answer_error("no_camera");
     }
     frame_.give_back();
+    if (world_.camera().trouble() != CameraTrouble::none)
+        teaching_.give_up("no_camera", Status::device_lost, events_);
+    else if (world_.now_us() - teaching_.since_us() > options_.timeout_us)
+        teaching_.give_up("no_frame", Status::timeout, events_);
     if (waiting_ && world_.now_us() - trigger_us_ > options_.timeout_us) answer_error("no_frame");
-}
-
-template <class World>
-void Daemon<World>::teach(ImageView<const Gray8> picture) {
-    const Span<const char> name{teach_.c_str(), teach_.size()};
-    if (options_.samples) {
-        linux_port::Fault fault;
-        const Status kept = world_.keep_sample(name, picture, fault);
-        events_.tell_sample(name, kept, fault);
-    }
-    if (takes_codes()) {
-        const char* const reason = judge_.teach(picture, world_.jobs()[job_], world_.scratch());
-        events_.tell_taught(name, judge_.taught(), reason);
-    }
-    teach_.clear();
 }
 
 template <class World>
@@ -282,8 +276,8 @@ void Daemon<World>::judge_frame(const hal::FrameInfo& info) {
         ++damaged_pictures_;
         return;
     }
-    if (!teach_.empty()) {
-        teach(picture);
+    if (teaching_.pending()) {
+        teaching_.take(picture, world_.jobs()[job_], judge_, events_);
         if (options_.source != TriggerSource::free && !waiting_) return;
     }
     if (!waiting_) {

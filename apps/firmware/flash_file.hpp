@@ -21,6 +21,15 @@ __asm(
 
 namespace fovea::apps {
 
+/// Whether the build was given a file; one without bytes is one too.
+constexpr bool has_flash_file() {
+#ifdef FOVEA_FLASH_FILE
+    return true;
+#else
+    return false;
+#endif
+}
+
 /// Empty if the build was given none. Of one source file of a program.
 inline Span<const std::uint8_t> flash_file() {
 #ifdef FOVEA_FLASH_FILE

@@ -70,12 +70,17 @@ public:
           reader_(job.packet_room()),
           line_(ports.serial, ports.clock, ports.watchdog) {}
 
-    /// The first words, with what lies in flash for the job if there is something.
-    void start(Span<const std::uint8_t> in_flash) {
+    /// The first words.
+    void start() {
         set_outputs(Verdict::unmeasured);
         heard_ = ports_.clock.microseconds();
-        if (!in_flash.empty()) load(in_flash);
         tell_state();
+    }
+    /// The same, with what lies in flash for the job: a file without bytes is refused, and not as if there
+    /// were none.
+    void start(Span<const std::uint8_t> in_flash) {
+        load(in_flash);
+        start();
     }
 
     /// One turn of the loop. Never waits but for its own line.

@@ -49,6 +49,9 @@ int main() {
     auto job = make_job();
     apps::FrameFirmware<Ports, decltype(job)> firmware(Ports{serial, trigger, ok, not_ok, clock, watchdog},
                                                        job, board::name);
-    firmware.start(apps::flash_file());
+    if (apps::has_flash_file())
+        firmware.start(apps::flash_file());
+    else
+        firmware.start();
     for (;;) firmware.turn();
 }

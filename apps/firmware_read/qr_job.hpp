@@ -25,11 +25,12 @@ struct QrMemory {
     static constexpr int line_bytes = Width;
     static constexpr int largest_version = LargestVersion;
     static constexpr std::size_t text_bytes = TextBytes;
+    static constexpr int most_told = 2;  ///< codes of a frame; with more of them there is no verdict
 
     static constexpr ReadQrOptions options() {
         ReadQrOptions options;
         options.effort = ReadQrOptions::Effort::several;
-        options.most_codes = 2;
+        options.most_codes = most_told + 1;
         options.largest_version = LargestVersion;
         return options;
     }
@@ -88,7 +89,7 @@ public:
     }
 
 private:
-    using Codes = FrameCodes<Memory::options().most_codes, Memory::text_bytes>;
+    using Codes = FrameCodes<Memory::most_told, Memory::text_bytes>;
     static_assert(Codes::utf8_bytes <= std::int64_t{sizeof(Memory::scratch)},
                   "a text must find room as UTF-8");
 

@@ -37,7 +37,10 @@ struct CodeJob {
     TextPlace region_place;
 
     /// The size of what is looked at in a picture.
-    Size looked_at(Size picture) const { return region.empty() ? picture : region.size(); }
+    /// Of a picture of that size; empty where its region leaves it.
+    Size looked_at(Size picture) const {
+        return region.empty() ? picture : inside(picture) ? region.size() : Size{};
+    }
     bool inside(Size picture) const {
         return region.empty() ||
                (region.width <= picture.width - region.x && region.height <= picture.height - region.y);
@@ -89,7 +92,9 @@ inline Span<const CodeKey> code_keys() {
         {"check", CodeKeyType::truth, "false",
          "Code 39, Interleaved 2 of 5 and Codabar: only with a right check character"},
         {"digits", CodeKeyType::wholes, "[]",
-         "Interleaved 2 of 5: the numbers of digits in use, as [14]; 6 to 80", 1, 16},
+         "Interleaved 2 of 5: how many digits are in use, as [14]; of several, all from the fewest to the "
+         "most",
+         1, 16},
     };
     return {keys, static_cast<std::ptrdiff_t>(sizeof keys / sizeof keys[0])};
 }

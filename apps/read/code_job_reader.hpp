@@ -279,6 +279,8 @@ private:
         BarRules& rules = file_.job.options.rules;
         rules.interleaved_shortest = *std::min_element(numbers.begin(), numbers.end());
         rules.interleaved_longest = *std::max_element(numbers.begin(), numbers.end());
+        for (const int number : numbers)
+            if (number % 2 != 0) return fail(value.place, "digits: expected even numbers");
         return is_valid(rules) || fail(value.place, "digits: expected even numbers");
     }
 

@@ -79,8 +79,7 @@ inline CodesVerdict CodeJudge::count_of(const CodeReadings& readings, const Code
 inline CodesVerdict CodeJudge::judge(ImageView<const Gray8> picture, const CodeJob& job,
                                      Span<std::uint8_t> scratch) {
     const auto allowed = [&](const CodeReading& reading) {
-        return job.allowed.allows(reading.text) &&
-               (!job.taught || taught_.contains(reading.code.symbology, reading.text));
+        return job.allowed.allows(reading.text) && (!job.taught || taught_.contains(reading));
     };
     const bool untaught = job.taught && taught_.empty();
     const Status read = readings_.read(picture, job, scratch, [&](const CodeReading& reading) {
@@ -98,9 +97,8 @@ inline CodesVerdict CodeJudge::judge(ImageView<const Gray8> picture, const CodeJ
     };
     blame("wrong_code", [&](const CodeReading& reading) { return !allowed(reading); });
     if (all.verdict == Verdict::ok) all = count_of(readings_, job);
-    blame("repeated_code", [&](const CodeReading& reading) {
-        return job.unlike_last && last_.contains(reading.code.symbology, reading.text);
-    });
+    blame("repeated_code",
+          [&](const CodeReading& reading) { return job.unlike_last && last_.contains(reading); });
     // One that was read out of focus has no grade, which is none that was asked for.
     blame("low_grade", [&](const CodeReading& reading) {
         return job.least_grade > 0 && reading.code.grade.overall < job.least_grade;

@@ -73,7 +73,7 @@ private:
     int bytes_told_ = 0;
 };
 
-/// Codes that are remembered: their kinds and texts.
+/// Codes that are remembered: their kinds and bytes, for what no character stands for is alike as a text.
 class KnownCodes {
 public:
     void clear() { count_ = 0; }
@@ -83,17 +83,17 @@ public:
         int used = 0;
         for (const CodeReading& reading : codes) {
             FOVEA_ASSERT(count_ < CodeReadings::most &&
-                         used + reading.text.size() <= CodeReadings::most_text);
-            std::copy(reading.text.begin(), reading.text.end(), letters_ + used);
-            known_[count_++] = {reading.code.symbology, used, static_cast<int>(reading.text.size())};
-            used += static_cast<int>(reading.text.size());
+                         used + reading.bytes.size() <= CodeReadings::most_text);
+            std::copy(reading.bytes.begin(), reading.bytes.end(), bytes_ + used);
+            known_[count_++] = {reading.code.symbology, used, static_cast<int>(reading.bytes.size())};
+            used += static_cast<int>(reading.bytes.size());
         }
     }
-    bool contains(Symbology symbology, Span<const char> text) const {
+    bool contains(const CodeReading& reading) const {
         for (int k = 0; k < count_; ++k) {
-            const char* const first = letters_ + known_[k].first;
-            if (known_[k].symbology == symbology &&
-                std::equal(text.begin(), text.end(), first, first + known_[k].size))
+            const std::uint8_t* const first = bytes_ + known_[k].first;
+            if (known_[k].symbology == reading.code.symbology &&
+                std::equal(reading.bytes.begin(), reading.bytes.end(), first, first + known_[k].size))
                 return true;
         }
         return false;
@@ -108,7 +108,7 @@ private:
 
     Known known_[CodeReadings::most];
     int count_ = 0;
-    char letters_[CodeReadings::most_text];
+    std::uint8_t bytes_[CodeReadings::most_text];
 };
 
 // ---- Implementation ---------------------------------------------------------------

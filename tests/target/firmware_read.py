@@ -193,6 +193,8 @@ def read_qr(reader, whole):
         reader.compare(f"version {version}, {90 * (version % 4)} degrees", symbol.turned(version % 4), "qr", 1)
     reader.compare("light on dark", reader.code('"on" \\\\ 1', module=2, inverted=None), "qr", 1)
     reader.compare("two symbols", Picture(128, 66).put(symbols[1], 0, 0).put(strong, 62, 0), "qr", 2)
+    crowd = Picture(190, 66).put(symbols[1], 0, 0).put(strong, 62, 0).put(reader.code("third", module=2), 124, 0)
+    reader.refuse("three symbols", crowd.frame().all(), "more entries than the list can hold")
     mended = reader.compare("a spot that is mended", Picture(66, 66).put(strong, 0, 0).fill(34, 30, 6, 6, 255), "qr", 1)
     if mended[0]["corrected_errors"] == 0:
         sys.exit("firmware_read: there was nothing to mend")

@@ -305,6 +305,45 @@ TEST(CodeJobs, ForgetTheCodeBeforeAsSoonAsAnotherIsToBeTaught) {
     EXPECT_EQ(bench.triggered(), "2;ERROR;not_taught;A7\r\n");
 }
 
+TEST(CodeJobs, AreTaughtWhatLiesThereWhenItIsAskedFor) {
+    Bench bench(label_job("taught = true\n"));
+    bench.see_text("A7");
+    run(bench.world, bench.daemon, 100000);
+    // A frame that is on its way already shows the part before.
+    bench.world.say("TEACH label\n");
+    bench.daemon.turn();
+    EXPECT_EQ(bench.last_event("taught"), "");
+    bench.see_text("A8");
+    run(bench.world, bench.daemon, 200000);
+    EXPECT_NE(bench.last_event("taught").find("\"text\":\"A8\""), std::string::npos);
+}
+
+TEST(CodeJobs, GiveUpToBeTaughtWhereNoFrameComes) {
+    Bench bench(label_job("taught = true\n"));
+    bench.see_text("A7");
+    run(bench.world, bench.daemon, 100000);
+    // Another job in the same breath: the next frame teaches it nothing.
+    EXPECT_EQ(bench.after("TEACH label\nJOB label"), "OK\r\nOK 2 label\r\n");
+    EXPECT_NE(bench.last_event("not_taught").find("\"reason\":\"another_job\""), std::string::npos);
+    EXPECT_EQ(bench.last_event("taught"), "");
+    EXPECT_EQ(bench.triggered(), "1;ERROR;not_taught;A7\r\n");
+    bench.world.undecodable = 1000;
+    bench.world.say("TEACH label\n");
+    run(bench.world, bench.daemon, 5000000);
+    EXPECT_NE(bench.last_event("not_taught").find("\"reason\":\"no_frame\""), std::string::npos);
+    bench.world.undecodable = 0;
+    run(bench.world, bench.daemon, 200000);
+    EXPECT_EQ(bench.last_event("taught"), "");
+    bench.world.heard();
+    bench.world.say("TEACH label\n");
+    bench.daemon.turn();
+    bench.world.device.unplugged = true;
+    run(bench.world, bench.daemon, 100000);
+    EXPECT_NE(bench.last_event("not_taught").find("\"reason\":\"no_camera\""), std::string::npos);
+    bench.world.device.unplugged = false;
+    run(bench.world, bench.daemon, 3000000);
+}
+
 TEST(CodeJobs, KeepASampleWhereThereIsAFolder) {
     Bench bench(label_job(), TriggerSource::command, true);
     EXPECT_EQ(bench.after("TEACH label"), "OK\r\n");

@@ -47,7 +47,7 @@ RecipeOf<2> plate_recipe() {
 
 class FirmwareGauge : public ::testing::Test {
 protected:
-    FirmwareGauge() { firmware.start({}); }
+    FirmwareGauge() { firmware.start(); }
 
     void send(apps::PacketKind kind, std::initializer_list<int> numbers = {}, const Bytes& rest = {}) {
         Bytes content = {static_cast<std::uint8_t>(kind)};

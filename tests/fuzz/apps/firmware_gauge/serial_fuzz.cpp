@@ -69,7 +69,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     apps::GaugeJob<Memory> job(memory);
     apps::FrameFirmware<Ports, apps::GaugeJob<Memory>> firmware(
         {serial, trigger, ok, not_ok, clock, watchdog}, job, "fuzz");
-    firmware.start({});
+    firmware.start();
     put_packet(serial, good_recipe());
     const auto turn = [&] {
         do {

@@ -44,7 +44,10 @@ void drive(Job job, const std::uint8_t* data, std::size_t size) {
     simulated::Watchdog watchdog(clock, 5000000);
     apps::FrameFirmware<Ports, Job> firmware({serial, trigger, ok, not_ok, clock, watchdog}, job, "fuzz");
     const std::uint8_t allowed[] = {'1', '2', '\n', '0', '0', '0', '0', '0', '0', '1', '7'};
-    firmware.start(size % 2 == 0 ? Span<const std::uint8_t>(allowed) : Span<const std::uint8_t>());
+    if (size % 2 == 0)
+        firmware.start(allowed);
+    else
+        firmware.start();
     const auto turn = [&] {
         do {
             firmware.turn();
