@@ -10,6 +10,7 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/linux/fault.hpp>
 
+#include <daemon/command.hpp>
 #include <daemon/daemon_events.hpp>
 #include <daemon/jobs.hpp>
 #include <daemon/judge.hpp>
