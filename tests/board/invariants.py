@@ -93,6 +93,9 @@ def every_trigger_has_one_answer(record):
         numbers = [number for number, _ in seen]
         if sorted(numbers) != list(range(1, len(numbers) + 1)):
             return f"triggers are numbered {numbers}"
+        judged = [number for number, verdict in seen if verdict != "MISSED"]
+        if judged != sorted(judged):
+            return f"results are not in order: {judged}"
         if strange := [verdict for _, verdict in seen if verdict not in COUNTS]:
             return f"answers {strange}"
     total = sum(map(len, lives))

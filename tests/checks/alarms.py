@@ -810,6 +810,8 @@ def board_invariants(folder):
     yield "numbers that begin anew", checked(said=[*said, *anew, result(1, 2, 3000000)], edges=3), "I1: triggers are numbered [1, 2, 1]"
     missed = {"ev": "trigger_missed", "seq": 3}
     yield "a trigger that came in between", checked(said=[*said[:2], missed, said[2]], edges=3, asked=[]), None
+    swapped = [said[0], {**said[2], "seq": 2}, {**said[1], "seq": 1}]
+    yield "results in another order", checked(said=swapped, asked=[], records=[]), "I1: results are not in order"
     yield "an edge without an answer", checked(edges=3), "I1: 3 edges, 2 answers"
     yield "other statistics", checked(asked=[["triggers 2 ok 2 ng 0 error 0 missed 0", 3]]), "I1: {'ok': 1"
     yield "another verdict on the serial line", checked(records=["1;NG;1"]), "I1: on the serial line alone"
