@@ -189,6 +189,63 @@ TEST(EanDecoder, AppendsAnAddOnWhereItIsWanted) {
     }
 }
 
+// A gain of a third of a module makes the two bars of a digit two thirds wider, and its twin has them two
+// modules wider or narrower.
+TEST(EanDecoder, ReadsAddOnsOfBarsThatAreTooWideOrTooNarrow) {
+    Random random(3104);
+    BarRules rules;
+    rules.add_on = AddOn::appended;
+    struct {
+        Symbology symbology;
+        int count;
+    } const kinds[] = {{Symbology::ean_13, 12}, {Symbology::upc_a, 11}, {Symbology::upc_e, 7}};
+    for (int round = 0; round < 500; ++round) {
+        const int module = 200 + static_cast<int>(random.below(3000));
+        const int gain = round % 2 == 0 ? random.between(-module / 3, module / 3)
+                                        : (round % 4 == 1 ? module / 3 : -module / 3);
+        for (const auto& kind : kinds) {
+            std::string text = digits(random, kind.count);
+            if (kind.symbology == Symbology::ean_13) text[0] = static_cast<char>('1' + random.below(9));
+            if (kind.symbology == Symbology::upc_e) text[0] = static_cast<char>('0' + random.below(2));
+            for (const int add_on_digits : {2, 5}) {
+                const std::string add_on = digits(random, add_on_digits);
+                Bars bars = bars_of(kind.symbology, text);
+                bars.widths[bars.count++] = 9;
+                ASSERT_EQ(encode_add_on(bytes_of(add_on), bars.view()), Status::ok);
+                BarReading reading;
+                const std::vector<std::int32_t> edges = edges_of(bars, module, 12, gain);
+                ASSERT_EQ(decode_ean(span_of(edges), 1, rules, reading), Status::ok) << text;
+                EXPECT_EQ(reading.symbology, kind.symbology);
+                EXPECT_EQ(reading.base, static_cast<int>(text.size()) + 1);
+                EXPECT_EQ(text_of(reading).substr(text.size() + 1), add_on) << text << ", gain " << gain;
+                EXPECT_EQ(reading.aim_digit, '3');
+            }
+        }
+    }
+}
+
+// A digit of an add-on whose bars lie between it and its twin, less the gain of its code, is not told.
+TEST(EanDecoder, AnAddOnWithADoubtfulTwinIsNotAppended) {
+    BarRules rules;
+    rules.add_on = AddOn::appended;
+    Bars bars = bars_of(Symbology::ean_13, "9780905705712");
+    bars.widths[bars.count++] = 9;
+    const int first = bars.count;
+    ASSERT_EQ(encode_add_on(bytes_of("87"), bars.view()), Status::ok);
+    for (const int gain : {-170, 0, 170}) {
+        for (const bool doubtful : {false, true}) {
+            std::vector<std::int32_t> edges = edges_of(bars, 512, 12, gain);
+            for (const int bar : {1, 3}) {
+                const auto at = static_cast<std::size_t>(1 + first + 3 + bar);
+                edges[at] += doubtful ? 80 : 60;
+                edges[at + 1] -= doubtful ? 80 : 60;
+            }
+            EXPECT_EQ(read(edges, rules), doubtful ? "EAN-13 9780905705712" : "EAN-13 978090570571287")
+                << gain;
+        }
+    }
+}
+
 TEST(EanDecoder, LeavesTheReadingOnErrors) {
     const std::vector<std::int32_t> edges = edges_of(bars_of(Symbology::ean_13, "9780905705712"), 512);
     BarReading reading;

@@ -187,6 +187,10 @@ struct EanGuard {
     int runs;
     bool begins_with_bar;
 };
+inline constexpr int ean_13_runs = 59;
+inline constexpr EanGuard ean_13_guards[] = {{0, 3, true}, {27, 5, false}, {56, 3, true}};
+inline constexpr int upc_e_runs = 33;
+inline constexpr EanGuard upc_e_guards[] = {{0, 3, true}, {27, 6, false}};
 template <std::size_t Count>
 constexpr bool match_guards(EanSymbol& symbol, int runs, int modules, const EanGuard (&guards)[Count]) {
     if (symbol.first + runs + 1 >= symbol.edges.size()) return false;
@@ -246,9 +250,8 @@ constexpr void set_digits(BarReading& reading, const std::uint8_t* digits, int c
 }
 
 inline bool decode_ean_13(EanSymbol symbol, const BarRules& rules, BarReading& reading) {
-    constexpr int runs = 59;
-    constexpr EanGuard guards[] = {{0, 3, true}, {27, 5, false}, {56, 3, true}};
-    if (!match_guards(symbol, runs, ean_13_modules, guards)) return false;
+    constexpr int runs = ean_13_runs;
+    if (!match_guards(symbol, runs, ean_13_modules, ean_13_guards)) return false;
     // Before the digits, which take long: UPC-A asks for less to the left, and EAN-13 to the right.
     if (ean_quiet(symbol, runs, {3, 9}, {3, 7}) < ean_13_quiet) return false;
     if (!are_ean_digits_even(symbol, 3, 6) || !are_ean_digits_even(symbol, 32, 6)) return false;
@@ -295,9 +298,8 @@ inline bool decode_ean_8(EanSymbol symbol, BarReading& reading) {
 }
 
 inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
-    constexpr int runs = 33;
-    constexpr EanGuard guards[] = {{0, 3, true}, {27, 6, false}};
-    if (!match_guards(symbol, runs, upc_e_modules, guards)) return false;
+    constexpr int runs = upc_e_runs;
+    if (!match_guards(symbol, runs, upc_e_modules, upc_e_guards)) return false;
     // The left half of an EAN-13 looks like a UPC-E that is followed by a space of up to four modules.
     if (symbol.between(runs, runs + 1) * 6 < symbol.between(27, 33) * 5) return false;
     if (ean_quiet(symbol, runs, {3, 9}, {6, 7}) < upc_e_quiet) return false;
@@ -322,16 +324,15 @@ inline bool decode_upc_e(EanSymbol symbol, BarReading& reading) {
     const std::int64_t bars =
         symbol.between(0, 1) + symbol.between(2, 3) + symbol.between(28, 29) + symbol.between(30, 31);
     if (digits[0] == 1 && !is_about(symbol.between(32, 33) * 4, bars, 170, 342)) return false;
-    // The left half of an EAN-13 looks like a UPC-E that is followed by a space of up to four modules.
-    if (symbol.between(runs, runs + 1) * 6 < symbol.between(27, 33) * 5) return false;
     if (found.quiet < upc_e_quiet || found.error > upc_e_worst || symbol.worst > upc_e_farthest) return false;
     set_digits(found, digits, 8);
     reading = found;
     return true;
 }
 
-/// Reads the add-on of so many digits behind the code of the reading.
-inline bool decode_add_on(EanSymbol code, int count, BarReading& reading) {
+/// Reads the add-on of so many digits behind the code of the reading. It is printed with the gain that the
+/// guards of the code have shown.
+inline bool decode_add_on(const EanSymbol& code, int count, BarReading& reading) {
     const int runs = 6 * count + 1;
     EanSymbol symbol{code.edges, reading.last + 1, 0, 0, code.gain, 0, 0, 0};
     if (symbol.first + runs + 1 >= code.edges.size()) return false;
@@ -384,9 +385,11 @@ inline Status decode_ean(BarEdges edges, int first, const BarRules& rules, BarRe
     found = found || (wanted.contains(Symbology::upc_e) && detail::decode_upc_e(symbol, reading));
     if (!found) return Status::not_found;
     if (rules.add_on == AddOn::appended && reading.symbology != Symbology::ean_8) {
-        const bool is_upc_e = reading.symbology == Symbology::upc_e;
-        symbol.modules = is_upc_e ? upc_e_modules : ean_13_modules;
-        symbol.width = symbol.between(0, reading.last - reading.first);
+        // The guards match, as the code was read.
+        static_cast<void>(
+            reading.symbology == Symbology::upc_e
+                ? detail::match_guards(symbol, detail::upc_e_runs, upc_e_modules, detail::upc_e_guards)
+                : detail::match_guards(symbol, detail::ean_13_runs, ean_13_modules, detail::ean_13_guards));
         if (!detail::decode_add_on(symbol, 5, reading)) {
             static_cast<void>(detail::decode_add_on(symbol, 2, reading));
         }
