@@ -49,8 +49,8 @@ public:
     ///
     /// Scratch  read_job_scratch() of what the job looks at
     /// Errors   out_of_range for a picture that the job's region leaves; not_found for no code, undecided
-    ///          where one was seen and lines did not agree; buffer_too_small for more text than most_text,
-    ///          with none read; others as read_codes() has them
+    ///          where one was seen and lines did not agree; buffer_too_small for more text than most_text
+    ///          in the codes that are kept, with none read; others as read_codes() has them
     template <class Keeps>
     Status read(ImageView<const Gray8> picture, const CodeJob& job, Span<std::uint8_t> scratch, Keeps keeps);
 
@@ -62,7 +62,8 @@ private:
     /// The longest text of one code is of 7089 digits, in QR.
     static constexpr int most_bytes = 8192;
 
-    Status take(const CodeText& text, const Code& code, CodeReading& reading);
+    Status take(const CodeText& text, const Code& code, Span<std::uint8_t> utf8, CodeReading& reading);
+    Status keep(CodeReading& reading);
 
     List<Code, CodeJob::most_seen> seen_;
     CodeReading readings_[most];
@@ -124,21 +125,32 @@ inline std::int64_t place_along(const Code& code, bool down) {
 
 }  // namespace detail
 
-inline Status CodeReadings::take(const CodeText& text, const Code& code, CodeReading& reading) {
+/// The code with its text, which lies in utf8. A picture in which a text has room needs more scratch than it.
+inline Status CodeReadings::take(const CodeText& text, const Code& code, Span<std::uint8_t> utf8,
+                                 CodeReading& reading) {
     reading = {code, {}, text.bytes().from(code.text_first).first(code.text_size), ""};
-    const Span<std::uint8_t> room = Span<std::uint8_t>(utf8_).from(utf8_used_);
-    Result<int> size = text_utf8(text, code.text_first, code.text_size, room);
+    Result<int> size = text_utf8(text, code.text_first, code.text_size, utf8);
     if (size.status() == Status::unsupported) {
         // As if no interpretation were stated. The bytes go where they are already.
         CodeText plain({bytes_ + code.text_first, code.text_size});
         for (const std::uint8_t byte : reading.bytes) static_cast<void>(plain.push(byte));
-        size = text_utf8(plain, 0, plain.size(), room);
+        size = text_utf8(plain, 0, plain.size(), utf8);
     }
     if (!size) return size.status();
-    reading.text = {reinterpret_cast<const char*>(room.data()), *size};
-    utf8_used_ += *size;
-    bytes_told_ += code.text_size;
-    return bytes_told_ > most_text ? Status::buffer_too_small : Status::ok;
+    reading.text = {reinterpret_cast<const char*>(utf8.data()), *size};
+    return Status::ok;
+}
+
+/// Copies the text of a code to those of the others.
+inline Status CodeReadings::keep(CodeReading& reading) {
+    if (reading.text.size() > most_text - utf8_used_ || reading.bytes.size() > most_text - bytes_told_)
+        return Status::buffer_too_small;
+    std::uint8_t* const own = utf8_ + utf8_used_;
+    std::copy(reading.text.begin(), reading.text.end(), own);
+    reading.text = {reinterpret_cast<const char*>(own), reading.text.size()};
+    utf8_used_ += static_cast<int>(reading.text.size());
+    bytes_told_ += static_cast<int>(reading.bytes.size());
+    return Status::ok;
 }
 
 template <class Keeps>
@@ -164,17 +176,13 @@ Status CodeReadings::read(ImageView<const Gray8> picture, const CodeJob& job, Sp
         for (SubPixelPoint& corner : code.corners)
             corner = {corner.x + SubPixel::from_int(area.x), corner.y + SubPixel::from_int(area.y)};
         if (count_ == most) break;
-        const int used = utf8_used_, told = bytes_told_;
+        // All that was to be seen has been read, so its scratch is free.
         CodeReading& reading = readings_[count_];
-        const Status taken = take(text, code, reading);
-        if (taken == Status::ok && keeps(reading)) {
-            ++count_;
-            continue;
-        }
-        // What is too long by itself is no code that is kept.
-        if (taken != Status::ok && (!job.ignores_others || told > 0)) return count_ = 0, taken;
-        utf8_used_ = used;
-        bytes_told_ = told;
+        Status taken = take(text, code, scratch, reading);
+        if (taken == Status::ok && !keeps(reading)) continue;
+        if (taken == Status::ok) taken = keep(reading);
+        if (taken != Status::ok) return count_ = 0, taken;
+        ++count_;
     }
     return count_ == 0 ? Status::not_found : Status::ok;
 }

@@ -159,6 +159,32 @@ TEST(CodeJudge, CannotJudgeMoreTextThanItTells) {
     EXPECT_EQ(picks.judge(both), "ok " + std::string(100, 'y'));
 }
 
+TEST(CodeJudge, IgnoresACodeThatIsTooLongWhereverItStands) {
+    const std::string kept(100, 'y');
+    Judging picks("symbologies = [\"matrices\"]\nothers = \"ignored\"\npatterns = [\"y*\"]\n");
+    // 700 bytes have room alone, but not beside the other's; 769 have none.
+    for (const int size : {700, 769}) {
+        const std::string foreign(static_cast<std::size_t>(size), 'x');
+        for (const int x : {0, 120}) {
+            const CodeScene scene = CodeScene({660, 520})
+                                        .draw(foreign, Symbology::qr, x, 0, 4)
+                                        .draw(kept, Symbology::data_matrix, x == 0 ? 540 : 0, 0, 3);
+            EXPECT_EQ(picks.judge(scene), "ok " + kept) << size << " bytes at " << x;
+        }
+    }
+    // What is allowed and has no room is not passed over.
+    EXPECT_EQ(picks.judge(CodeScene({660, 520})
+                              .draw(std::string(769, 'y'), Symbology::qr, 0, 0, 4)
+                              .draw(kept, Symbology::data_matrix, 540, 0, 3)),
+              "?codes_too_long");
+    Judging both("symbologies = [\"matrices\"]\nothers = \"ignored\"\npatterns = [\"y*\"]\ncount = 2\n");
+    for (const int x : {0, 120})
+        EXPECT_EQ(both.judge(CodeScene({660, 520})
+                                 .draw(std::string(700, 'y'), Symbology::qr, x, 0, 4)
+                                 .draw(kept, Symbology::data_matrix, x == 0 ? 540 : 0, 0, 3)),
+                  "?codes_too_long");
+}
+
 TEST(CodeJudge, TellsBytesOfAnyKindAsUtf8) {
     Judging any("symbologies = [\"qr\"]\n");
     EXPECT_EQ(any.judge(one("a\xe9z")), "ok a\xc3\xa9z");
