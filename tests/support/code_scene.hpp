@@ -28,6 +28,10 @@ public:
         apps::CodeDesign design;
         design.symbology = symbology;
         design.code_128 = kind;
+        return draw(text, design, x, y, module, bars_px);
+    }
+    CodeScene& draw(const std::string& text, const apps::CodeDesign& design, int x, int y, int module,
+                    int bars_px = 40) {
         apps::CodeModules modules;
         EXPECT_EQ(apps::modules_of(text, design, modules), "");
         const int rows = modules.bars ? bars_px : modules.size.height * module;

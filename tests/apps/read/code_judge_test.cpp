@@ -119,6 +119,28 @@ TEST(CodeJudge, AllowsWhatItWasTaughtAndNothingBefore) {
     EXPECT_EQ(taught.teach(CodeScene({180, 180})), "no_code");
 }
 
+// In UTF-8 neither 80 nor 81 is a character by itself: as texts both are A and U+FFFD.
+TEST(CodeJudge, KnowsCodesApartByTheirBytesWhereTheirTextsAreAlike) {
+    const auto scene = [](const std::string& text) {
+        CodeDesign design;
+        design.qr.eci = 26;
+        return CodeScene({180, 180}).draw(text, design, 10, 10, 4);
+    };
+    const CodeScene first = scene("A\x80"), second = scene("A\x81");
+    const std::string told = "A\xef\xbf\xbd";
+    Judging taught("symbologies = [\"qr\"]\ntaught = true\n");
+    EXPECT_EQ(taught.teach(first), "ok " + told);
+    EXPECT_EQ(taught.judge(first), "ok " + told);
+    EXPECT_EQ(taught.judge(second), "wrong_code " + told + "!wrong_code");
+    EXPECT_EQ(taught.teach(second), "ok " + told);
+    EXPECT_EQ(taught.judge(second), "ok " + told);
+    EXPECT_EQ(taught.judge(first), "wrong_code " + told + "!wrong_code");
+    Judging serial("symbologies = [\"qr\"]\nunlike_last = true\n");
+    EXPECT_EQ(serial.judge(first), "ok " + told);
+    EXPECT_EQ(serial.judge(second), "ok " + told);
+    EXPECT_EQ(serial.judge(second), "repeated_code " + told + "!repeated_code");
+}
+
 TEST(CodeJudge, LooksAtItsRegionAlone) {
     Judging right("symbologies = [\"qr\"]\nregion = [150, 0, 150, 140]\n");
     EXPECT_EQ(right.judge(two("A1", "A2")), "ok A2");
