@@ -29,6 +29,8 @@ struct CodeJob {
     CodeRule allowed;
     /// Allowed is what was taught, and nothing until then.
     bool taught = false;
+    /// No text may stand in a picture twice.
+    bool distinct = false;
     bool unlike_last = false;
     /// 0 (F, any) to 4 (A).
     int least_grade = 0;
@@ -69,6 +71,8 @@ inline Span<const CodeKey> code_keys() {
          "what is looked for, as [\"ean-13\", \"qr\"]; also \"bars\", \"matrices\", \"retail\" and \"all\"",
          1, 16},
         {"count", CodeKeyType::whole, "1", "how many codes are expected", 1, CodeJob::most_codes},
+        {"distinct", CodeKeyType::truth, "false",
+         "no two codes of a picture may have the same text; wants a count of 2 or more"},
         {"others", CodeKeyType::choice, "\"wrong\"", "what codes that are not allowed are", 0, 0,
          "wrong|ignored"},
         {"allowed", CodeKeyType::texts, "[]", "texts that are allowed; with no patterns either, all are", 0,

@@ -181,6 +181,7 @@ private:
         CodeJob& job = file_.job;
         BarRules& rules = job.options.rules;
         if (name == "taught") job.taught = true;
+        if (name == "distinct") job.distinct = true;
         if (name == "unlike_last") job.unlike_last = true;
         if (name == "thorough") job.options.thorough = true;
         if (name == "add_on") rules.add_on = AddOn::appended;
@@ -295,6 +296,8 @@ private:
         if (job.ignores_others && !job.taught && job.allowed.empty())
             return fail(*place_of("others"),
                         "others = \"ignored\" wants allowed, patterns or taught beside it");
+        if (job.distinct && job.count < 2)
+            return fail(*place_of("distinct"), "distinct = true wants a count of 2 or more");
         job.options.symbologies = symbologies_;
         // One more than is expected, so that it is seen.
         job.options.most_codes = job.ignores_others ? CodeJob::most_seen : job.count + 1;

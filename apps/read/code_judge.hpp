@@ -19,7 +19,8 @@ namespace fovea::apps {
 struct CodesVerdict {
     Verdict verdict = Verdict::unmeasured;
     /// One word; empty for ok. Of not_ok: no_code, undecided_code, wrong_code, too_few_codes, too_many_codes,
-    /// repeated_code, low_grade. Of unmeasured: not_taught, region_outside, codes_too_long, no_judgement.
+    /// duplicate_code, repeated_code, low_grade. Of unmeasured: not_taught, region_outside, codes_too_long,
+    /// no_judgement.
     const char* reason = "";
 };
 
@@ -30,7 +31,8 @@ public:
     CodesVerdict judge(ImageView<const Gray8> picture, const CodeJob& job, Span<std::uint8_t> scratch);
 
     /// Takes what stands in a picture as what is allowed from now on, in place of what was. Not ok, with
-    /// nothing allowed, if there are not as many codes as expected, or one that no pattern of the job fits.
+    /// nothing allowed, if there are not as many codes as expected, alike where they must be distinct, or one
+    /// that no pattern of the job fits.
     CodesVerdict teach(ImageView<const Gray8> picture, const CodeJob& job, Span<std::uint8_t> scratch);
 
     /// The picture was OK: its codes are the last ones.
@@ -97,6 +99,8 @@ inline CodesVerdict CodeJudge::judge(ImageView<const Gray8> picture, const CodeJ
     };
     blame("wrong_code", [&](const CodeReading& reading) { return !allowed(reading); });
     if (all.verdict == Verdict::ok) all = count_of(readings_, job);
+    blame("duplicate_code",
+          [&](const CodeReading& reading) { return job.distinct && readings_.times(reading.text) > 1; });
     blame("repeated_code",
           [&](const CodeReading& reading) { return job.unlike_last && last_.contains(reading); });
     // One that was read out of focus has no grade, which is none that was asked for.
@@ -117,6 +121,9 @@ inline CodesVerdict CodeJudge::teach(ImageView<const Gray8> picture, const CodeJ
     if (read == Status::ok) all = count_of(taught_readings_, job);
     for (const CodeReading& reading : taught_readings_.codes())
         if (all.verdict == Verdict::ok && !fits(reading)) all = {Verdict::not_ok, "wrong_code"};
+    for (const CodeReading& reading : taught_readings_.codes())
+        if (all.verdict == Verdict::ok && job.distinct && taught_readings_.times(reading.text) > 1)
+            all = {Verdict::not_ok, "duplicate_code"};
     if (all.verdict == Verdict::ok)
         taught_.take(taught_readings_.codes());
     else

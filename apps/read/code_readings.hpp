@@ -56,6 +56,12 @@ public:
 
     Span<CodeReading> codes() { return {readings_, count_}; }
     Span<const CodeReading> codes() const { return {readings_, count_}; }
+    /// How many of the codes have this text, whatever their kind.
+    int times(Span<const char> text) const {
+        return static_cast<int>(std::count_if(readings_, readings_ + count_, [&](const CodeReading& reading) {
+            return std::equal(text.begin(), text.end(), reading.text.begin(), reading.text.end());
+        }));
+    }
     void clear() { count_ = 0; }
 
 private:

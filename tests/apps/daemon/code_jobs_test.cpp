@@ -117,8 +117,8 @@ TEST(DocumentedCodeJob, IsAJobThatDoesWhatThePageSays) {
 TEST(DocumentedCodeJob, HasEveryReasonOnThePage) {
     const std::string text = page();
     for (const char* reason :
-         {"no_code", "undecided_code", "wrong_code", "too_few_codes", "too_many_codes", "repeated_code",
-          "low_grade", "not_taught", "region_outside", "codes_too_long"})
+         {"no_code", "undecided_code", "wrong_code", "too_few_codes", "too_many_codes", "duplicate_code",
+          "repeated_code", "low_grade", "not_taught", "region_outside", "codes_too_long"})
         EXPECT_NE(text.find(std::string("`") + reason + "`"), std::string::npos) << reason;
 }
 

@@ -27,7 +27,7 @@ TEST(CodeJob, IsItsDefaultsWhereNothingIsSaid) {
     const CodeJob& job = file.job;
     EXPECT_EQ(job.options.symbologies, SymbologySet(Symbology::ean_13));
     EXPECT_EQ(job.options.most_codes, 2);
-    EXPECT_FALSE(job.options.thorough || job.ignores_others || job.taught || job.unlike_last);
+    EXPECT_FALSE(job.options.thorough || job.ignores_others || job.taught || job.distinct || job.unlike_last);
     EXPECT_EQ(job.count, 1);
     EXPECT_EQ(job.least_grade, 0);
     EXPECT_TRUE(job.allowed.empty() && job.region.empty());
@@ -39,6 +39,7 @@ TEST(CodeJob, TakesWhatIsSaid) {
         top +
         "[codes]\nsymbologies = [\"matrices\", \"code-128\", \"interleaved-2-of-5\"]\ncount = 2\n"
         "others = \"ignored\"\nallowed = [\"a\\\\x1db\", \"c\"]\npatterns = [\"40#*\"]\nunlike_last = true\n"
+        "distinct = true\n"
         "least_grade = \"C\"\nregion = [10, 20, 300, 200]\nthorough = true\nadd_on = true\nascii = true\n"
         "check = true\ndigits = [14, 8]\n");
     ASSERT_EQ(file.problem, "");
@@ -49,7 +50,7 @@ TEST(CodeJob, TakesWhatIsSaid) {
                 !job.options.symbologies.contains(Symbology::ean_13));
     EXPECT_EQ(job.count, 2);
     EXPECT_EQ(job.options.most_codes, CodeJob::most_seen);
-    EXPECT_TRUE(job.ignores_others && job.unlike_last && job.options.thorough);
+    EXPECT_TRUE(job.ignores_others && job.distinct && job.unlike_last && job.options.thorough);
     EXPECT_TRUE(job.allowed.allows(span_of("a\x1d"
                                            "b")) &&
                 job.allowed.allows(span_of("401")));
@@ -108,6 +109,10 @@ TEST(CodeJob, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(problem_in_codes("digits = [7]\n"), "5:10: digits: expected even numbers");
     EXPECT_EQ(problem_in_codes("taught = true\nallowed = [\"a\"]\n"),
               "6:11: allowed has no meaning beside taught = true; patterns have");
+    for (const char* lines : {"distinct = true\n", "distinct = true\ncount = 1\n"})
+        EXPECT_EQ(problem_in_codes(lines), "5:12: distinct = true wants a count of 2 or more");
+    EXPECT_EQ(problem_in_codes("distinct = true\ncount = 2\n"), "");
+    EXPECT_EQ(problem_in_codes("distinct = false\n"), "");
     EXPECT_EQ(problem_in_codes("others = \"ignored\"\n"),
               "5:10: others = \"ignored\" wants allowed, patterns or taught beside it");
 }

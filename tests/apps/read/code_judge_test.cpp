@@ -99,6 +99,36 @@ TEST(CodeJudge, WantsACodeUnlikeThatOfTheLastGoodPicture) {
     EXPECT_EQ(serial.judge(one("SN1")), "ok SN1");
 }
 
+TEST(CodeJudge, WantsCodesOfDifferentTextsWhereItIsToldTo) {
+    const std::string pair = "symbologies = [\"matrices\"]\ncount = 2\nallowed = [\"A1\", \"A2\"]\n";
+    EXPECT_EQ(Judging(pair).judge(two("A1", "A1")), "ok A1 A1");
+    Judging each(pair + "distinct = true\n");
+    EXPECT_EQ(each.judge(two("A1", "A2")), "ok A1 A2");
+    EXPECT_EQ(each.judge(two("A2", "A1")), "ok A2 A1");
+    EXPECT_EQ(each.judge(two("A1", "A1")), "duplicate_code A1!duplicate_code A1!duplicate_code");
+    EXPECT_EQ(each.judge(two("A3", "A3")), "wrong_code A3!wrong_code A3!wrong_code");
+    // Of another kind it is the same text.
+    EXPECT_EQ(each.judge(CodeScene({300, 140})
+                             .draw("A1", Symbology::qr, 10, 10, 4)
+                             .draw("A1", Symbology::data_matrix, 180, 30, 4)),
+              "duplicate_code A1!duplicate_code A1!duplicate_code");
+    Judging three("symbologies = [\"qr\"]\ncount = 3\ndistinct = true\n");
+    const auto row = [](const char* left, const char* middle, const char* right) {
+        return CodeScene({440, 140})
+            .draw(left, Symbology::qr, 10, 10, 4)
+            .draw(middle, Symbology::qr, 150, 10, 4)
+            .draw(right, Symbology::qr, 290, 10, 4);
+    };
+    EXPECT_EQ(three.judge(row("A1", "A2", "A1")), "duplicate_code A1!duplicate_code A2 A1!duplicate_code");
+    EXPECT_EQ(three.judge(row("A1", "A2", "A3")), "ok A1 A2 A3");
+    Judging taught("symbologies = [\"qr\"]\ncount = 2\ntaught = true\ndistinct = true\n");
+    EXPECT_EQ(taught.teach(two("A1", "A1")), "duplicate_code");
+    EXPECT_EQ(taught.judge(two("A1", "A1")), "?not_taught A1 A1");
+    EXPECT_EQ(taught.teach(two("A1", "A2")), "ok A1 A2");
+    EXPECT_EQ(taught.judge(two("A2", "A1")), "ok A2 A1");
+    EXPECT_EQ(taught.judge(two("A2", "A2")), "duplicate_code A2!duplicate_code A2!duplicate_code");
+}
+
 TEST(CodeJudge, AllowsWhatItWasTaughtAndNothingBefore) {
     Judging taught("symbologies = [\"qr\"]\ntaught = true\npatterns = [\"A*\"]\n");
     EXPECT_EQ(taught.judge(one("A1")), "?not_taught A1");
