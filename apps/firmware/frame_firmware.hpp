@@ -111,7 +111,7 @@ private:
 
     void take(std::uint8_t byte) {
         const Result<bool> whole = reader_.add(byte);
-        if (whole.status() == Status::capacity_exceeded) return fail("packet too long");
+        if (whole.status() == Status::capacity_exceeded) return take_too_long(reader_.beginning());
         if (!whole) return fail("packet damaged");
         if (!*whole) return;
         heard_ = ports_.clock.microseconds();
@@ -164,7 +164,8 @@ private:
 
     void take_line(Span<const std::uint8_t> rest) {
         if (state_ != State::receiving) {
-            // After an error the rest of its frame still comes, even behind the next trigger.
+            // After an error the rest of its frame still comes, even behind the next trigger, with room
+            // or without.
             if (!lines_expected_) fail("line without a frame");
             return;
         }
@@ -172,6 +173,13 @@ private:
         if (number_at(rest, 0) != next_line_) return fail("line missing");
         job_.take_line(next_line_, rest.from(2));
         if (++next_line_ == size_.height) judge_frame();
+    }
+
+    /// A packet without room. Where what it begins with says that it is a line, it is taken for one.
+    void take_too_long(Span<const std::uint8_t> beginning) {
+        const bool is_line = static_cast<PacketKind>(beginning[0]) == PacketKind::line;
+        if (!is_line || state_ == State::receiving || !lines_expected_) return fail("packet too long");
+        heard_ = ports_.clock.microseconds();
     }
 
     /// False, and all as it was, if the job refuses the bytes.

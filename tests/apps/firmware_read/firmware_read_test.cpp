@@ -75,6 +75,7 @@ public:
         serial_.sent.clear();
         return text;
     }
+    void wait_us(std::int64_t time) { clock_.now += time; }
     bool is(bool ok_active, bool not_ok_active) {
         return *ok_.active() == ok_active && *not_ok_.active() == not_ok_active;
     }
@@ -270,6 +271,65 @@ TEST(FirmwareRead, TakesFramesThatHaveRoom) {
     EXPECT_EQ(bar_board->said(), "");
     bar_board->send(apps::PacketKind::line, {1}, Bytes(33, 9));
     EXPECT_TRUE(has(bar_board->said(), "packet too long"));
+}
+
+TEST(FirmwareRead, LinesWithoutRoomAreToldOfOnce) {
+    BarBoard board;
+    board->said();
+    const auto send_lines = [&](int count, std::size_t width) {
+        for (int y = 0; y < count; ++y) board->send(apps::PacketKind::line, {y}, Bytes(width, 9));
+    };
+    const std::string too_long = "\"error\":\"packet too long\"";
+    // Without a frame.
+    send_lines(3, 401);
+    EXPECT_EQ(board->said(), "{" + too_long + ",\"verdict\":\"unmeasured\"}\n");
+    // Of a frame that was refused.
+    board->send(apps::PacketKind::trigger);
+    board->send(apps::PacketKind::frame, {401, 9});
+    EXPECT_TRUE(has(board->said(), "frame too large"));
+    send_lines(9, 401);
+    EXPECT_EQ(board->said(), "");
+    // Wider than their frame.
+    board->send(apps::PacketKind::trigger);
+    board->send(apps::PacketKind::frame, {32, 9});
+    board->said();
+    send_lines(9, 33);
+    EXPECT_EQ(board->said(), "{\"frame\":2," + too_long + ",\"line\":0,\"verdict\":\"unmeasured\"}\n");
+    // The last of them behind the next trigger, whose frame is taken.
+    board->send(apps::PacketKind::trigger);
+    EXPECT_EQ(board->said(), "{\"frame\":3,\"ready\":true}\n");
+    send_lines(3, 33);
+    board->send(apps::PacketKind::frame, {32, 2});
+    send_lines(2, 32);
+    EXPECT_TRUE(has(board->said(), "\"frame\":3,\"codes\":[]"));
+    // What is none of the lines of a frame that has ended is told each time.
+    send_lines(2, 401);
+    EXPECT_EQ(board->said(), "{" + too_long + ",\"verdict\":\"unmeasured\"}\n");
+    for (const auto kind : {apps::PacketKind::recipe, apps::PacketKind::frame, apps::PacketKind::state}) {
+        for (int i = 0; i < 2; ++i) {
+            board->send(kind, {}, Bytes(500, 9));
+            EXPECT_EQ(board->said(), "{" + too_long + ",\"verdict\":\"unmeasured\"}\n");
+        }
+    }
+}
+
+// As those that have room do, they keep the next trigger waiting for its frame.
+TEST(FirmwareRead, LinesWithoutRoomAreHeard) {
+    for (const std::size_t width : {std::size_t{400}, std::size_t{401}}) {
+        BarBoard board;
+        board->said();
+        board->send(apps::PacketKind::frame, {400, 9});
+        EXPECT_TRUE(has(board->said(), "frame without a trigger"));
+        board->send(apps::PacketKind::trigger);
+        board->said();
+        for (int y = 0; y < 3; ++y) {
+            board->wait_us(1500000);
+            board->send(apps::PacketKind::line, {y}, Bytes(width, 9));
+            EXPECT_EQ(board->said(), "") << width;
+        }
+        board->wait_us(2500000);
+        EXPECT_TRUE(has(board->said(), "no frame came")) << width;
+    }
 }
 
 }  // namespace

@@ -123,6 +123,19 @@ TEST(Packet, ThatIsTooLongIsToldOfOnce) {
     const Heard heard = read(packed(content) + packed({'?'}), 24);
     EXPECT_EQ(heard.errors, std::vector<Status>{Status::capacity_exceeded});
     EXPECT_EQ(heard.packets, std::vector<Bytes>{{'?'}});
+    Bytes room(24);
+    PacketReader reader({room.data(), 24});
+    for (int kind = 1; kind < 3; ++kind) {
+        Bytes other = content;
+        other[0] = static_cast<std::uint8_t>(kind);
+        for (const std::uint8_t byte : packed(other)) {
+            if (reader.add(byte).status() != Status::capacity_exceeded) continue;
+            // 21 bytes of content and 3 of the checksum.
+            ASSERT_EQ(reader.beginning().size(), 24);
+            EXPECT_EQ(reader.beginning()[0], kind);
+            EXPECT_EQ(reader.beginning()[20], 9);
+        }
+    }
     const Heard endless = read(Bytes{0xC0} + Bytes(100000, 1));
     EXPECT_EQ(endless.errors, std::vector<Status>{Status::capacity_exceeded});
 }

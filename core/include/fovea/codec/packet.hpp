@@ -40,6 +40,8 @@ public:
 
     /// The last packet.
     constexpr Span<const std::uint8_t> content() const { return {room_.data(), content_}; }
+    /// Right after capacity_exceeded: of the packet that is too long what had room, which no checksum proves.
+    constexpr Span<const std::uint8_t> beginning() const { return room_; }
     /// True while a packet has begun that may still end well or be told of; not while one is skipped.
     constexpr bool in_packet() const { return size_ > 0 || escaped_ || wrong_; }
     /// Drops what has begun; until the next mark all is skipped.
