@@ -296,8 +296,10 @@ inline void codec_packet(Workspace& work, Digest& digest) {
                 if (i == place && fault == 1) line[i] ^= 1;
                 if (i == place && fault == 2) continue;
                 if (i == place && fault == 3) reader.drop();
-                digest.add(reader.add(line[i]));
+                const Result<bool> whole = reader.add(line[i]);
+                digest.add(whole);
                 digest.add(reader.in_packet());
+                if (whole.status() == Status::capacity_exceeded) digest.add(reader.beginning());
             }
             digest.add(reader.content());
         }
