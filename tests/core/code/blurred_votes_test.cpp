@@ -45,6 +45,24 @@ TEST(BlurredVotes, AreHeldUpByOtherDigits) {
     EXPECT_EQ(votes.best().digits[0], 9);
 }
 
+TEST(BlurredVotes, WhatIsClearIsBelievedBeforeALargerMarginThatIsNot) {
+    const BlurredEan ean_13 = reading("9780905705712", 130);
+    BlurredEan ean_8 = reading("36536559", 140);
+    ean_8.symbology = Symbology::ean_8;
+    EXPECT_TRUE(detail::is_clearer_reading(ean_13, ean_8));
+    EXPECT_FALSE(detail::is_clearer_reading(ean_8, ean_13));
+    ean_8.margin = Ratio::from_ratio(150, 100);
+    EXPECT_TRUE(detail::is_clearer_reading(ean_8, ean_13));
+    EXPECT_FALSE(detail::is_clearer_reading(ean_13, ean_8));
+    // Neither is clear, then both are.
+    for (const int margin : {110, 126}) {
+        const BlurredEan less = reading("9780905705712", margin), more = reading("9780345460950", margin + 9);
+        EXPECT_TRUE(detail::is_clearer_reading(more, less));
+        EXPECT_FALSE(detail::is_clearer_reading(less, more));
+        EXPECT_FALSE(detail::is_clearer_reading(less, less));
+    }
+}
+
 // A UPC-E with modules of 1.5 px and a blur of 1.2 modules was told as 36536559.
 TEST(BlurredVotes, WantMoreOfTheFewDigitsOfAnEan8) {
     BlurredVotes votes;

@@ -68,6 +68,12 @@ constexpr bool is_clear_reading(const BlurredEan& reading) {
     return reading.margin.raw() >= (reading.symbology == Symbology::ean_8 ? BlurredVotes::clear_ean_8_margin
                                                                           : BlurredVotes::clear_margin);
 }
+/// Of two readings of a profile: what is clear before what is not, for an EAN-8 needs more of a margin; then
+/// by margins.
+constexpr bool is_clearer_reading(const BlurredEan& reading, const BlurredEan& other) {
+    const bool clear = is_clear_reading(reading);
+    return clear == is_clear_reading(other) ? reading.margin > other.margin : clear;
+}
 
 }  // namespace detail
 

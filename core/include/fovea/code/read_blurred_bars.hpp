@@ -112,6 +112,27 @@ public:
         return Status::ok;
     }
 
+    /// The best reading of the stretches around the middle of a profile; false if there is none.
+    bool read_profile(Span<const std::uint16_t> profile, int middle, BlurredEan& best) {
+        List<ProfileSpan, 6> spans;
+        // capacity_exceeded keeps the widest.
+        if (find_profile_spans(profile, middle, spans.view()) == Status::not_found) return false;
+        bool found = false;
+        for (const ProfileSpan& span : spans) {
+            for (const Symbology symbology : {Symbology::ean_13, Symbology::ean_8}) {
+                if (!wanted(symbology)) continue;
+                if (spent()) return found;
+                const Result<BlurredEan> reading =
+                    detail::read_blurred_ean(profile, span, symbology, *reader_, work_);
+                if (!reading || (found && !is_clearer_reading(*reading, best))) continue;
+                best = *reading;
+                found = true;
+                if (is_clear_reading(best)) return true;
+            }
+        }
+        return found;
+    }
+
 private:
     /// Where a line saw a code, in the direction of reading.
     struct Seen {
@@ -145,25 +166,6 @@ private:
         const std::int64_t y = std::int64_t{centre.y.raw()} * 256 - line.from.y.raw();
         const std::int64_t place = (x * line.step.x.raw() + y * line.step.y.raw()) >> 32;
         return static_cast<int>(clamp<std::int64_t>(place, 0, line.samples - 1));
-    }
-    bool read_profile(Span<const std::uint16_t> profile, int middle, BlurredEan& best) {
-        List<ProfileSpan, 6> spans;
-        // capacity_exceeded keeps the widest.
-        if (find_profile_spans(profile, middle, spans.view()) == Status::not_found) return false;
-        bool found = false;
-        for (const ProfileSpan& span : spans) {
-            for (const Symbology symbology : {Symbology::ean_13, Symbology::ean_8}) {
-                if (!wanted(symbology)) continue;
-                if (spent()) return found;
-                const Result<BlurredEan> reading =
-                    detail::read_blurred_ean(profile, span, symbology, *reader_, work_);
-                if (!reading || (found && reading->margin <= best.margin)) continue;
-                best = *reading;
-                found = true;
-                if (is_clear_reading(best)) return true;
-            }
-        }
-        return found;
     }
     bool spent() const { return work_ >= blurred_work; }
     bool wanted(Symbology symbology) const {
