@@ -28,6 +28,16 @@ TEST(LetterModules, AreThoseOfTheStandard) {
     EXPECT_EQ(letter_modules(10), 0x27U);           // B 0: 0100111
     EXPECT_EQ(letter_modules(first_c), 0x72U);      // C 0: 1110010
     EXPECT_EQ(letter_modules(first_c + 9), 0x74U);  // C 9: 1110100
+    // Set A, printed as modules.
+    const unsigned set_a[10] = {0b0001101, 0b0011001, 0b0010011, 0b0111101, 0b0100011,
+                                0b0110001, 0b0101111, 0b0111011, 0b0110111, 0b0001011};
+    for (int digit = 0; digit < 10; ++digit) {
+        EXPECT_EQ(letter_modules(digit), set_a[digit]) << digit;
+        EXPECT_EQ(letter_modules(first_c + digit), set_a[digit] ^ 0x7FU) << digit;
+        unsigned reversed = 0;
+        for (int k = 0; k < 7; ++k) reversed = reversed << 1 | (letter_modules(first_c + digit) >> k & 1);
+        EXPECT_EQ(letter_modules(10 + digit), reversed) << digit;
+    }
     for (int letter = 0; letter < letter_count; ++letter) {
         int dark = 0;
         for (int k = 0; k < 7; ++k) dark += static_cast<int>(letter_modules(letter) >> k & 1);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include <fovea/base/assert.hpp>
+#include <fovea/code/ean_tables.hpp>
 #include <fovea/number/fixed.hpp>
 #include <fovea/number/integer.hpp>
 
@@ -47,18 +48,32 @@ constexpr std::int32_t disc_share(Ratio place) {
 inline constexpr int letter_count = 30;
 inline constexpr int first_c = 20;
 
-/// Dark modules of a letter, its first module in bit 6. B is C from behind, C is A with its colours
-/// exchanged.
+/// ean_widths as modules. B is C from behind, C is A with its colours exchanged.
+struct LetterModules {
+    std::uint8_t of[letter_count];
+};
+constexpr LetterModules modules_of_letters() {
+    LetterModules modules{};
+    for (int digit = 0; digit < 10; ++digit) {
+        unsigned a = 0;
+        for (int run = 0; run < 4; ++run) {
+            for (int i = 0; i < ean_widths[digit][run]; ++i) a = a << 1 | (run % 2 == 1 ? 1U : 0U);
+        }
+        const unsigned c = ~a & 0x7F;
+        unsigned b = 0;
+        for (int k = 0; k < 7; ++k) b |= (c >> k & 1) << (6 - k);
+        modules.of[digit] = static_cast<std::uint8_t>(a);
+        modules.of[10 + digit] = static_cast<std::uint8_t>(b);
+        modules.of[first_c + digit] = static_cast<std::uint8_t>(c);
+    }
+    return modules;
+}
+inline constexpr LetterModules all_letter_modules = modules_of_letters();
+
+/// Dark modules of a letter, its first module in bit 6.
 constexpr unsigned letter_modules(int letter) {
     FOVEA_ASSERT(letter >= 0 && letter < letter_count);
-    constexpr std::uint8_t set_a[10] = {0x0D, 0x19, 0x13, 0x3D, 0x23, 0x31, 0x2F, 0x3B, 0x37, 0x0B};
-    const unsigned a = set_a[letter % 10];
-    if (letter < 10) return a;
-    const unsigned c = ~a & 0x7F;
-    if (letter >= first_c) return c;
-    unsigned b = 0;
-    for (int k = 0; k < 7; ++k) b |= (c >> k & 1) << (6 - k);
-    return b;
+    return all_letter_modules.of[letter];
 }
 
 /// Where the letters of a symbol stand.

@@ -9,6 +9,7 @@
 
 #include <fovea/base/assert.hpp>
 #include <fovea/code/blur_letters.hpp>
+#include <fovea/code/ean_tables.hpp>
 
 namespace fovea::detail {
 
@@ -97,10 +98,6 @@ inline void trace_letters(const BlurPlan& plan, const BlurLetters& letters, cons
     }
 }
 
-/// Which of the six left letters are of set B, the first in bit 5, for each first digit. ISO/IEC 15420, table
-/// 2.
-inline constexpr std::uint8_t set_b_places[10] = {0x00, 0x0B, 0x0D, 0x0E, 0x13, 0x19, 0x1C, 0x15, 0x16, 0x1A};
-
 /// The digits that come closest, and how much closer they are than any others whose check digit is right.
 struct CheapestDigits {
     std::int32_t cost = 0;
@@ -182,7 +179,7 @@ private:
     /// A digit as an index into the alphabet of its place.
     int letter(int place, int digit) const {
         if (place >= plan_.left || !plan_.has_parity) return digit;
-        return (set_b_places[first_digit_] >> (plan_.left - 1 - place) & 1) != 0 ? 10 + digit : digit;
+        return (ean_13_parity[first_digit_] >> (plan_.left - 1 - place) & 1) != 0 ? 10 + digit : digit;
     }
     std::int32_t own(int place, int digit) const { return costs_.of[place][letter(place, digit)]; }
     std::int32_t pair(int place, int left, int right) const {

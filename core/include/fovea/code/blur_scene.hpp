@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/code/blur_letters.hpp>
 #include <fovea/code/blur_paths.hpp>
+#include <fovea/code/ean_tables.hpp>
 #include <fovea/number/fixed.hpp>
 #include <fovea/number/integer.hpp>
 
@@ -116,7 +117,7 @@ inline void darkness_of_letters(const BlurPlan& plan, const ModuleResponse& modu
 constexpr int letter_of(const BlurPlan& plan, const std::uint8_t* digits, int place) {
     const int digit = digits[place + 1];
     if (place >= plan.left) return first_c + digit;
-    const bool of_b = plan.has_parity && (set_b_places[digits[0]] >> (plan.left - 1 - place) & 1) != 0;
+    const bool of_b = plan.has_parity && (ean_13_parity[digits[0]] >> (plan.left - 1 - place) & 1) != 0;
     return of_b ? 10 + digit : digit;
 }
 
