@@ -310,6 +310,36 @@ def snippets(folder):
     yield trial("a line without a header", "no such header: pixelwise/erode.hpp", page, "In `", "In `pixelwise/erode.hpp`, `")
 
 
+def function_of_run(name):
+    """A function of tests/run, to be called behind it."""
+    text = (PROJECT / "tests/run").read_text()
+    begin = text.index(f"\n{name}() {{\n")
+    return text[begin:text.index("\n}\n", begin) + 3]
+
+
+@alarm
+def code_plots(folder):
+    """Plots that are not those of the figures."""
+    def trial(what, words, file="tests/bench/codes/robustness.csv", old="", new=""):
+        tree = folder / what.replace(" ", "_")
+        for path in ["tests/docs/code_plots.py", "tests/bench/codes/robustness.csv",
+                     "docs/pictures/code_blur.svg", "docs/pictures/code_disturbances.svg"]:
+            (tree / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(PROJECT / path, tree / path)
+        if old:
+            replace(tree / file, old, new)
+        return what, ["bash", "-c", f"cd '{tree}' && set -e; {function_of_run('same_pictures')}\n"
+                                    "same_pictures tests/docs/code_plots.py tests/bench/codes/robustness.csv"], words
+
+    level = "EAN-13,blur at 1 px,0.3,modules,fovea,10,"
+    yield trial("as they are", None)
+    yield trial("a code that is not read", "code_blur.svg differ", old=f"{level}10,0", new=f"{level}9,0")
+    yield trial("a code that is misread", "code_blur.svg differ", old=f"{level}10,0", new=f"{level}10,1")
+    contrast = "EAN-13,contrast,50,grey levels,fovea,"
+    yield trial("another level", "code_disturbances.svg differ", old=contrast, new=contrast.replace("50", "51"))
+    yield trial("another colour", "code_blur.svg differ", "tests/docs/code_plots.py", "#0b6e4f", "#0b6e4e")
+
+
 # ---- Golden vectors, bench, memory ---------------------------------------------------------------
 
 OPERATOR = HEAD + "namespace fovea {\n// ---- Interface\ninline Status sharpen(ImageView<const Gray8> src);\n" \
@@ -740,6 +770,40 @@ def target_firmware_read(folder):
                                  f"{PROJECT}/build/tool/apps/fovea"], words
 
 
+def target_code_work(folder):
+    """code_work.py must see a picture that takes too long, a code that is not read, one where there is none, a count that is
+    missing, and a page of other numbers. An emulator that repeats what was counted stands in for the real one."""
+    lines = {f"{kind} {picture} {reader} {codes}": millions
+             for reader in ("read_codes", "read_qr")
+             for kind, picture, codes, millions in [("with", "qr_1", 1, 20), ("with", "qr_2", 1, 30), ("without", "stones_1", 0, 100),
+                                                    ("without", "stones_2", 0, 120), ("busy", "noise_1", 0, 300), ("busy", "noise_2", 0, 320)]}
+    run = f"{function_of_run('same_page')}\nsame_page code_work.md {PROJECT}/tests/target/code_work.py program plugin"
+
+    def work(name, old="", new="", millions=None, counts=None, page=""):
+        """One line has other words or another count, or so many counts are written; the page is that of all as it was."""
+        place = folder / name
+        told = {line.replace(old, new) if line == old else line: millions if line == old and millions else count
+                for line, count in lines.items()}
+        for tree, seen in ((place / "before", lines), (place, told)):
+            numbers = list(seen.values())[:counts if tree == place else None]
+            write(tree, {"seen": "".join(f"{line}\n" for line in seen),
+                         "counted": "".join(f"{count}000000\n" for count in numbers),
+                         "qemu-x86_64": '#!/bin/sh\ncp counted "${2##*out=}"\ncat seen\n', "build/.keep": ""})
+            (tree / "qemu-x86_64").chmod(0o755)
+        return ["bash", "-c", f"set -e; cd {place}/before; PATH=.:$PATH {PROJECT}/tests/target/code_work.py program plugin > "
+                              f"../code_work.md; cd ..; PATH=.:$PATH; {run}"]
+
+    busy, with_code, without = "busy noise_2 read_codes 0", "with qr_2 read_codes 1", "without stones_1 read_codes 0"
+    yield "what was counted before", work("good"), None
+    # The median of the four ordinary pictures is 65.
+    yield "a picture that takes too long", work("long", busy, busy, 326), "noise_2: 326 million instructions are more than 5 times 65"
+    yield "a code that is not read", work("unread", with_code, with_code[:-1] + "0"), "qr_2: 0 codes were read"
+    yield "a code where there is none", work("read", without, without[:-1] + "1"), "stones_1: 1 codes were read"
+    yield "a count that is missing", work("missing", counts=11), "12 regions were told and 11 counted"
+    yield "another count", work("count", busy, busy, 310), "code_work.md is not what"
+    yield "another count of a single reader", work("single", "busy noise_2 read_qr 0", "busy noise_2 read_qr 0", 350), "code_work.md is not what"
+
+
 def target_new_board(folder):
     """A port that cannot be taken into another project, or a board whose clock stands."""
     def broken(name, file, old, new):
@@ -757,7 +821,7 @@ def target_new_board(folder):
 
 
 target_alarms = [target_binary, target_chip, target_pins, target_watchdog, target_call_depth, target_firmware,
-                 target_firmware_read, target_new_board]
+                 target_firmware_read, target_code_work, target_new_board]
 
 
 def board_proofs(folder):
