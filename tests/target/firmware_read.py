@@ -167,8 +167,8 @@ def read_bars(reader, whole):
         ("a line with a wrong bit", frame.begin + frame.lines[0] + with_a_wrong_bit(Noise(240, 2).frame().lines[1]), "packet damaged"),
         ("a line that is missing", frame.begin + frame.lines[0] + frame.lines[2], "line missing"),
         ("a line that is too short", frame.begin + line(0, bytes(frame.width - 1)), "line of a wrong length"),
-        ("a line that is too long", frame.begin + line(0, bytes(frame.width + 1)), "packet too long"),
-        ("a frame that is too wide", begin(641, 2), "frame too large"),
+        ("lines that are too long", frame.begin + b"".join(line(y, bytes(frame.width + 1)) for y in range(3)), "packet too long"),
+        ("a frame that is too wide", begin(641, 2) + line(0, bytes(641)) + line(1, bytes(641)), "frame too large"),
         ("a frame that is too narrow", begin(31, 2), "frame too narrow"),
         ("a recipe", packet("R", b"FVRC"), "packet of an unknown kind"),
         ("a last line that does not come", frame.begin + b"".join(frame.lines[:-1]), "line too late")])
