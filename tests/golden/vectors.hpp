@@ -28,6 +28,7 @@
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
 #include <golden/motion_vectors.hpp>
+#include <golden/number_vectors.hpp>
 #include <golden/operator_vectors.hpp>
 #include <golden/segment_vectors.hpp>
 #include <golden/statistics_vectors.hpp>
@@ -53,8 +54,13 @@ inline constexpr Vector vectors[] = {
     {"number/decimal", number_decimal},
     {"number/int128", number_int128},
     {"number/integer", number_integer},
+    {"number/real", number_real},
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
+    {"number/wide", number_wide},
+    {"linear/eigen", linear_eigen},
+    {"linear/matrices", linear_matrices},
+    {"linear/solvers", linear_solvers},
     {"simd/lanes", simd_lanes},
     {"simd/words", simd_words},
     {"image/row_kernel", image_row_kernel},
