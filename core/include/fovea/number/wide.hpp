@@ -66,7 +66,7 @@ constexpr Wide multiply_wide(std::uint64_t a, std::uint64_t b) {
             second << 32 | low_word(bottom)};
 }
 
-/// 2^94 / b to 32 bits, for b with its top bit set: within 2^-31 of 1 / b, held below 2^32.
+/// 2^95 / b for b with its top bit set: within 1.2, held below 2^32.
 ///
 /// Source  Newton's y (2 - y b) from the line 48/17 - 32/17 b, which is off by 1/17 at most: 2^-8.1, 2^-16.3
 ///         and, with all of b, 2^-32.6
@@ -84,15 +84,15 @@ constexpr std::uint32_t reciprocal(std::uint64_t b) {
     // y + y (1 - y b) in 2^-31, to the nearest.
     const std::uint64_t product = multiply_words(y, magnitude(part));  // in 2^-76
     const std::uint32_t step = static_cast<std::uint32_t>((product + (std::uint64_t{1} << 44)) >> 45);
-    const std::uint32_t doubled = y << 1;
-    const std::uint32_t result = part < 0 ? doubled - step : doubled + step;
-    // 2 itself is one too many for 32 bits.
-    return result < 0x80000000u ? 0xffffffffu : result;
+    const std::uint64_t doubled = std::uint64_t{y} << 1;
+    return static_cast<std::uint32_t>(
+        minimum<std::uint64_t>(part < 0 ? doubled - step : doubled + step, 0xffffffffu));
 }
 
 constexpr std::uint64_t divide_wide(std::uint64_t a, std::uint64_t b) {
     const std::uint32_t y = reciprocal(b);
-    // 2 - y b in 2^-63, rounded down, so that y (2 - y b) is never above 1 / b, and at most 2^-61 below it.
+    // 2 - y b in 2^-63, rounded down, so that y (2 - y b) is never above 1 / b, and below it by 2^-61 at
+    // most.
     const std::uint64_t rest = ~(multiply_words(y, high_word(b)) + high_word(multiply_words(y, low_word(b))));
     const std::uint64_t fine =
         (multiply_words(y, high_word(rest)) << 1) + (multiply_words(y, low_word(rest)) >> 31);
