@@ -19,6 +19,7 @@
 #include <fovea/number/decimal.hpp>
 #include <fovea/number/fixed.hpp>
 #include <fovea/number/int128.hpp>
+#include <fovea/number/real.hpp>
 
 namespace fovea::golden {
 
@@ -53,6 +54,10 @@ inline void put(Digest& digest, Angle angle) { digest.add_number(angle.raw()); }
 inline void put(Digest& digest, FineAngle angle) { digest.add_number(angle.raw()); }
 inline void put(Digest& digest, Decimal number) { digest.add_number(number.millionths); }
 inline void put(Digest& digest, Int128 number) { digest.add(number.low_word(), (number >> 64).low_word()); }
+
+inline void put(Digest& digest, Real number) {
+    digest.add(number.mantissa(), number.exponent(), number.negative());
+}
 
 inline void put(Digest& digest, Size size) { digest.add(size.width, size.height); }
 inline void put(Digest& digest, Point point) { digest.add(point.x, point.y); }

@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
 #include <golden/code_blur_vectors.hpp>
 #include <golden/code_data_matrix_vectors.hpp>
@@ -28,6 +29,7 @@
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
 #include <golden/motion_vectors.hpp>
+#include <golden/number_vectors.hpp>
 #include <golden/operator_vectors.hpp>
 #include <golden/segment_vectors.hpp>
 #include <golden/statistics_vectors.hpp>
@@ -53,8 +55,13 @@ inline constexpr Vector vectors[] = {
     {"number/decimal", number_decimal},
     {"number/int128", number_int128},
     {"number/integer", number_integer},
+    {"number/real", number_real},
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
+    {"number/wide", number_wide},
+    {"linear/eigen", linear_eigen},
+    {"linear/matrices", linear_matrices},
+    {"linear/solvers", linear_solvers},
     {"simd/lanes", simd_lanes},
     {"simd/words", simd_words},
     {"image/row_kernel", image_row_kernel},
@@ -118,6 +125,8 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"camera/lens", camera_lens},
+    {"camera/poses", camera_poses},
     {"code/blurred_ean", code_blurred_ean},
     {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <fovea/base/random.hpp>
+#include <fovea/number/logarithm.hpp>
 #include <fovea/statistics/hu_moments.hpp>
+#include <support/scalars.hpp>
 
 namespace fovea::test {
 namespace {
@@ -37,10 +39,6 @@ Pixels shape(Random& random, int side) {
             if ((2 * x < y || (y < side / 4 && x < 3 * side / 4)) && random.below(8) != 0)
                 pixels.push_back({x, y});
     return pixels;
-}
-
-long double value_of(Scaled number) {
-    return std::ldexp(static_cast<long double>(number.mantissa()), number.exponent());
 }
 
 /// Hu's formulas as they stand, from sums over the pixels; and the largest term of each invariant.
@@ -95,8 +93,8 @@ constexpr long double share() {
 TEST(HuMoments, OfTwoPixelsByHand) {
     // About the middle mu20 is 1/2 and all others are 0: eta20 = 1/2 / 4.
     const HuMoments hu = *hu_moments(of({{3, 5}, {4, 5}}));
-    EXPECT_EQ(hu[0], Scaled::from_int(1) / Scaled::from_int(8));
-    EXPECT_EQ(hu[1], Scaled::from_int(1) / Scaled::from_int(64));
+    EXPECT_EQ(hu[0], Real::from_int(1) / Real::from_int(8));
+    EXPECT_EQ(hu[1], Real::from_int(1) / Real::from_int(64));
     for (int i = 2; i < HuMoments::count; ++i) EXPECT_TRUE(hu[i].zero());
     EXPECT_EQ(normalized_moments(of({{3, 5}, {4, 5}}))->eta20, hu[0]);
     EXPECT_EQ(log2_of(hu[1])->round(), -6);
@@ -111,7 +109,7 @@ TEST(HuMoments, EqualTheReference) {
         for (int i = 0; i < HuMoments::count; ++i)
             ASSERT_LE(std::abs(value_of(hu[i]) - real.h[i]), share() * real.size[i]) << i;
         const NormalizedMoments n = *normalized_moments(of(pixels));
-        const Scaled etas[] = {n.eta20, n.eta11, n.eta02, n.eta30, n.eta21, n.eta12, n.eta03};
+        const Real etas[] = {n.eta20, n.eta11, n.eta02, n.eta30, n.eta21, n.eta12, n.eta03};
         const long double reals[] = {real.eta[2][0], real.eta[1][1], real.eta[0][2], real.eta[3][0],
                                      real.eta[2][1], real.eta[1][2], real.eta[0][3]};
         const long double largest = std::pow(real.h[0], 1.5L);

@@ -9,7 +9,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/number/int128.hpp>
 #include <fovea/number/integer.hpp>
-#include <fovea/number/scaled.hpp>
+#include <fovea/number/real.hpp>
 #include <fovea/statistics/moments.hpp>
 
 namespace fovea {
@@ -18,13 +18,13 @@ namespace fovea {
 
 /// Central moments mu_pq over area^(1 + (p + q) / 2): alike for the same shape at every place and size.
 struct NormalizedMoments {
-    Scaled eta20, eta11, eta02;
-    Scaled eta30, eta21, eta12, eta03;
+    Real eta20, eta11, eta02;
+    Real eta30, eta21, eta12, eta03;
 };
 
 /// The normalised central moments of a region.
 ///
-/// Rounding  from the exact central moments, to a relative 2^-57
+/// Rounding  from the exact central moments, to a relative 2^-59
 /// Errors    empty_image for a region without pixels
 /// Source    Hu, "Visual Pattern Recognition by Moment Invariants", IRE Trans. IT 8(2), 1962
 constexpr Result<NormalizedMoments> normalized_moments(const Moments& moments);
@@ -35,13 +35,13 @@ constexpr Result<NormalizedMoments> normalized_moments(const Moments& moments);
 /// Units  numbers, many of them far below 1: compare their logarithms, log2_of(), and their signs
 struct HuMoments {
     static constexpr int count = 7;
-    Scaled h[count];
-    constexpr const Scaled& operator[](int index) const { return h[index]; }
+    Real h[count];
+    constexpr const Real& operator[](int index) const { return h[index]; }
 };
 
 /// Hu's invariants of a region.
 ///
-/// Rounding  from the exact central moments: the first four to a relative 2^-55, the others to 2^-55 of their
+/// Rounding  from the exact central moments: the first four to a relative 2^-57, the others to 2^-57 of their
 ///           largest term, of which there are four. A region that is moved, turned by quarters or mirrored
 ///           gives the same digits
 /// Errors    empty_image for a region without pixels
@@ -87,50 +87,50 @@ constexpr WholeCentralMoments whole_central_moments(const Moments& moments) {
 constexpr Result<NormalizedMoments> normalized_moments(const Moments& moments) {
     if (moments.m00 <= 0) return Status::empty_image;
     const detail::WholeCentralMoments c = detail::whole_central_moments(moments);
-    const Scaled area = Scaled::from_int(c.area);
-    const Scaled square = area * area;
-    const Scaled second = square * area;
-    const Scaled third = square * square * root_of(static_cast<std::uint64_t>(c.area));
+    const Real area = Real::from_int(c.area);
+    const Real square = area * area;
+    const Real second = square * area;
+    const Real third = square * square * area.square_root();
     NormalizedMoments n;
-    n.eta20 = Scaled::from_int(c.mu20) / second;
-    n.eta11 = Scaled::from_int(c.mu11) / second;
-    n.eta02 = Scaled::from_int(c.mu02) / second;
-    n.eta30 = Scaled::from_int(c.mu30) / third;
-    n.eta21 = Scaled::from_int(c.mu21) / third;
-    n.eta12 = Scaled::from_int(c.mu12) / third;
-    n.eta03 = Scaled::from_int(c.mu03) / third;
+    n.eta20 = Real::from_int(c.mu20) / second;
+    n.eta11 = Real::from_int(c.mu11) / second;
+    n.eta02 = Real::from_int(c.mu02) / second;
+    n.eta30 = Real::from_int(c.mu30) / third;
+    n.eta21 = Real::from_int(c.mu21) / third;
+    n.eta12 = Real::from_int(c.mu12) / third;
+    n.eta03 = Real::from_int(c.mu03) / third;
     return n;
 }
 
 constexpr Result<HuMoments> hu_moments(const Moments& moments) {
     if (moments.m00 <= 0) return Status::empty_image;
     const detail::WholeCentralMoments m = detail::whole_central_moments(moments);
-    const Scaled sum = Scaled::from_int(m.mu20 + m.mu02);
-    const Scaled difference = Scaled::from_int(m.mu20 - m.mu02);
-    const Scaled twice = Scaled::from_int(m.mu11 * 2);
-    const Scaled p = Scaled::from_int(m.mu30 - m.mu12 * 3);
-    const Scaled q = Scaled::from_int(m.mu21 * 3 - m.mu03);
-    const Scaled s = Scaled::from_int(m.mu30 + m.mu12);
-    const Scaled t = Scaled::from_int(m.mu21 + m.mu03);
-    const Scaled ss = s * s;
-    const Scaled tt = t * t;
-    const Scaled three = Scaled::from_int(3);
-    const Scaled along = ss - three * tt;
-    const Scaled across = three * ss - tt;
+    const Real sum = Real::from_int(m.mu20 + m.mu02);
+    const Real difference = Real::from_int(m.mu20 - m.mu02);
+    const Real twice = Real::from_int(m.mu11 * 2);
+    const Real p = Real::from_int(m.mu30 - m.mu12 * 3);
+    const Real q = Real::from_int(m.mu21 * 3 - m.mu03);
+    const Real s = Real::from_int(m.mu30 + m.mu12);
+    const Real t = Real::from_int(m.mu21 + m.mu03);
+    const Real ss = s * s;
+    const Real tt = t * t;
+    const Real three = Real::from_int(3);
+    const Real along = ss - three * tt;
+    const Real across = three * ss - tt;
 
     // A second moment is over area^3, a third one over area^(9/2).
-    const Scaled a = Scaled::from_int(m.area);
-    const Scaled a3 = a * a * a;
-    const Scaled a6 = a3 * a3;
-    const Scaled a9 = a6 * a3;
-    const Scaled a18 = a9 * a9;
+    const Real a = Real::from_int(m.area);
+    const Real a3 = a * a * a;
+    const Real a6 = a3 * a3;
+    const Real a9 = a6 * a3;
+    const Real a18 = a9 * a9;
     HuMoments hu;
     hu.h[0] = sum / a3;
     hu.h[1] = (difference * difference + twice * twice) / a6;
     hu.h[2] = (p * p + q * q) / a9;
     hu.h[3] = (ss + tt) / a9;
     hu.h[4] = (p * s * along + q * t * across) / a18;
-    hu.h[5] = (difference * (ss - tt) + Scaled::from_int(2) * twice * (s * t)) / (a9 * a3);
+    hu.h[5] = (difference * (ss - tt) + Real::from_int(2) * twice * (s * t)) / (a9 * a3);
     hu.h[6] = (q * s * along - p * t * across) / a18;
     return hu;
 }
