@@ -96,6 +96,20 @@ not in them. Frames have noise of 16 levels; the lines of noise have nothing els
     print("|---" * (len(codes) + 1) + "|")
     for name in codes["cortex-m4"]:
         print(f"| {name} | " + " | ".join(f"{table[name] / 1e6:.2f}" for table in codes.values()) + " |")
+    print("""
+## Numbers and geometry
+
+Instructions for a call, with [`Real`](operators/foundations.md#numbers), compiled by -Os; of numbers the mean of 256 calls, with the loop
+around them.
+""")
+    geometry = {lane: counts(f"geometry-{lane}") for lane in ("cortex-m0", "cortex-m4", "rv32imac")}
+    print("| | " + " | ".join(LANES[lane] for lane in geometry) + " |")
+    print("|---" * (len(geometry) + 1) + "|")
+    names = list(geometry["cortex-m0"])
+    for name in names:
+        calls = 256 if names.index(name) < names.index("solve_ldlt, 8 unknowns") else 1
+        print(f"| {name} | " + " | ".join(number(table[name] / calls) if calls > 1 else str(table[name])
+                                          for table in geometry.values()) + " |")
 
 
 if __name__ == "__main__":

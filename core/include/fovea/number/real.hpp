@@ -18,6 +18,8 @@ namespace fovea {
 // ---- Interface --------------------------------------------------------------------
 
 namespace detail {
+/// 64 bits that want no more alignment than 32: three words make a number.
+using Digits [[gnu::aligned(4)]] = std::uint64_t;
 inline constexpr int real_bias = 1 << 28;
 inline constexpr std::uint64_t real_top = std::uint64_t{1} << 63;
 }  // namespace detail
@@ -32,7 +34,7 @@ inline constexpr std::uint64_t real_top = std::uint64_t{1} << 63;
 ///           until the exponents agree, keeps one digit more where signs differ, and then cuts. Digits do not
 ///           depend on signs or on the order of the operands
 /// Layout    12 bytes; all of them 0 is 0
-class [[gnu::packed, gnu::aligned(4)]] Real {
+class Real {
 public:
     constexpr Real() = default;
     /// value * 2^exponent, cut after 64 digits.
@@ -69,27 +71,28 @@ public:
         a.scale_ ^= a.zero() ? 0u : 1u;
         return a;
     }
-    friend constexpr Real operator+(Real a, Real b) { return sum(a, b); }
-    friend constexpr Real operator-(Real a, Real b) {
-        b.scale_ ^= 1u;
-        return sum(a, b);
+    friend constexpr Real operator+(const Real& a, const Real& b) { return sum(a, b); }
+    friend constexpr Real operator-(const Real& a, const Real& b) {
+        Real negative = b;
+        negative.scale_ ^= 1u;
+        return sum(a, negative);
     }
-    friend constexpr Real operator*(Real a, Real b);
+    friend constexpr Real operator*(const Real& a, const Real& b);
     /// 0 for a divisor of 0: who divides looks at the divisor before.
-    friend constexpr Real operator/(Real a, Real b);
-    constexpr Real& operator+=(Real b) { return *this = *this + b; }
-    constexpr Real& operator-=(Real b) { return *this = *this - b; }
-    constexpr Real& operator*=(Real b) { return *this = *this * b; }
-    constexpr Real& operator/=(Real b) { return *this = *this / b; }
+    friend constexpr Real operator/(const Real& a, const Real& b);
+    constexpr Real& operator+=(const Real& b) { return *this = *this + b; }
+    constexpr Real& operator-=(const Real& b) { return *this = *this - b; }
+    constexpr Real& operator*=(const Real& b) { return *this = *this * b; }
+    constexpr Real& operator/=(const Real& b) { return *this = *this / b; }
 
-    friend constexpr bool operator==(Real a, Real b) {
+    friend constexpr bool operator==(const Real& a, const Real& b) {
         return a.mantissa_ == b.mantissa_ && a.scale_ == b.scale_;
     }
-    friend constexpr bool operator!=(Real a, Real b) { return !(a == b); }
-    friend constexpr bool operator<(Real a, Real b);
-    friend constexpr bool operator>(Real a, Real b) { return b < a; }
-    friend constexpr bool operator<=(Real a, Real b) { return !(b < a); }
-    friend constexpr bool operator>=(Real a, Real b) { return !(a < b); }
+    friend constexpr bool operator!=(const Real& a, const Real& b) { return !(a == b); }
+    friend constexpr bool operator<(const Real& a, const Real& b);
+    friend constexpr bool operator>(const Real& a, const Real& b) { return b < a; }
+    friend constexpr bool operator<=(const Real& a, const Real& b) { return !(b < a); }
+    friend constexpr bool operator>=(const Real& a, const Real& b) { return !(a < b); }
 
     constexpr Real absolute() const {
         Real result = *this;
@@ -107,16 +110,15 @@ public:
 
     /// Sums in two ways that give the same: short for chips, and without a branch for processors that guess
     /// them. The operators choose.
-    static constexpr Real sum_with_branches(Real a, Real b);
+    static constexpr Real sum_with_branches(const Real& a, const Real& b);
     static constexpr Real sum_without_branches(Real a, Real b);
 
 private:
+    constexpr Real(std::uint64_t mantissa, std::uint32_t scale) : mantissa_(mantissa), scale_(scale) {}
     static constexpr Real make(bool negative, std::uint64_t mantissa, int exponent) {
         FOVEA_ASSERT(exponent > -detail::real_bias && exponent < detail::real_bias);
-        Real result;
-        result.mantissa_ = mantissa;
-        result.scale_ = static_cast<std::uint32_t>(exponent + detail::real_bias) << 1 | (negative ? 1u : 0u);
-        return result;
+        return {mantissa,
+                static_cast<std::uint32_t>(exponent + detail::real_bias) << 1 | (negative ? 1u : 0u)};
     }
     /// mantissa * 2^(exponent - 63), whatever bits the mantissa has.
     static constexpr Real normalised(bool negative, std::uint64_t mantissa, int exponent) {
@@ -124,11 +126,11 @@ private:
         const int raise = leading_zeros(mantissa);
         return make(negative, mantissa << raise, exponent - raise);
     }
-    static constexpr Real sum(Real a, Real b) {
+    static constexpr Real sum(const Real& a, const Real& b) {
         return sizeof(void*) > 4 ? sum_without_branches(a, b) : sum_with_branches(a, b);
     }
 
-    std::uint64_t mantissa_ = 0;
+    detail::Digits mantissa_ = 0;
     // Twice the exponent, kept as an unsigned number, so that 0 has the smallest; 1 more if negative.
     std::uint32_t scale_ = 0;
 };
@@ -156,21 +158,16 @@ constexpr std::int64_t Real::rounded(int bits) const {
     return negative() ? -static_cast<std::int64_t>(size) : static_cast<std::int64_t>(size);
 }
 
-constexpr Real Real::sum_with_branches(Real a, Real b) {
-    Real large = a;
-    Real small = b;
-    if (a.scale_ >> 1 < b.scale_ >> 1) {
-        large = b;
-        small = a;
-    }
+constexpr Real Real::sum_with_branches(const Real& a, const Real& b) {
+    const bool swap = a.scale_ >> 1 < b.scale_ >> 1;
+    const Real& large = swap ? b : a;
+    const Real& small = swap ? a : b;
     const std::uint32_t drop = (large.scale_ >> 1) - (small.scale_ >> 1);
     if (drop > 63) return large;
     if (((large.scale_ ^ small.scale_) & 1) == 0) {
         const std::uint64_t total = large.mantissa_ + (small.mantissa_ >> drop);
         const bool carry = total < large.mantissa_;
-        large.mantissa_ = carry ? total >> 1 | detail::real_top : total;
-        large.scale_ += carry ? 2 : 0;
-        return large;
+        return carry ? Real(total >> 1 | detail::real_top, large.scale_ + 2) : Real(total, large.scale_);
     }
     if (drop == 0) {
         if (large.mantissa_ >= small.mantissa_)
@@ -181,8 +178,7 @@ constexpr Real Real::sum_with_branches(Real a, Real b) {
     const std::uint64_t guard = aligned & 1;
     const std::uint64_t total = large.mantissa_ - (aligned >> 1) - guard;
     if (total >> 63 == 0) return normalised(large.negative(), total << 1 | guard, large.exponent() - 1);
-    large.mantissa_ = total;
-    return large;
+    return {total, large.scale_};
 }
 
 constexpr Real Real::sum_without_branches(Real a, Real b) {
@@ -198,10 +194,7 @@ constexpr Real Real::sum_without_branches(Real a, Real b) {
     const std::uint32_t scale = a.scale_ ^ scales;
     const std::uint32_t small_scale = b.scale_ ^ scales;
     const std::uint32_t drop = (scale >> 1) - (small_scale >> 1);
-    Real result;
-    result.mantissa_ = large;
-    result.scale_ = scale;
-    if (drop > 63) return result;
+    if (drop > 63) return {large, scale};
 
     const std::uint64_t differ = 0 - std::uint64_t{(scale ^ small_scale) & 1};
     const std::uint64_t aligned = small >> drop;
@@ -210,23 +203,26 @@ constexpr Real Real::sum_without_branches(Real a, Real b) {
     const std::uint64_t total = large + (aligned ^ differ) + (differ & 1) - guard;
     const std::uint32_t carry = (total < large ? 1u : 0u) & ~static_cast<std::uint32_t>(differ);
     if ((total | carry) == 0)
-        return guard == 0 ? Real() : make((scale & 1) != 0, detail::real_top, result.exponent() - 64);
-    const int raise = carry != 0 ? 0 : leading_zeros(total | carry);
-    result.mantissa_ = (total << raise | (guard << raise) >> 1) >> carry | std::uint64_t{carry} << 63;
-    result.scale_ = scale + 2 * carry - 2 * static_cast<std::uint32_t>(raise);
-    return result;
+        return guard == 0 ? Real()
+                          : make((scale & 1) != 0, detail::real_top,
+                                 static_cast<int>(scale >> 1) - detail::real_bias - 64);
+    const int raise = leading_zeros(total | carry) & ~(0 - static_cast<int>(carry));
+    const std::uint64_t digits = (total << raise | (guard << raise) >> 1) >> carry | std::uint64_t{carry}
+                                                                                         << 63;
+    return {digits, scale + 2 * carry - 2 * static_cast<std::uint32_t>(raise)};
 }
 
-constexpr Real operator*(Real a, Real b) {
+constexpr Real operator*(const Real& a, const Real& b) {
     const Wide product = multiply_wide(a.mantissa_, b.mantissa_);
+    // The sum of both scales, in which two signs would carry.
+    const std::uint32_t scale =
+        a.scale_ + b.scale_ - 2 * (a.scale_ & b.scale_ & 1) - 2 * std::uint32_t{detail::real_bias};
+    if (product.high >> 63 != 0) return {product.high, scale + 2};
     if (product.high == 0) return {};
-    const bool full = product.high >> 63 != 0;
-    return Real::make(a.negative() != b.negative(),
-                      full ? product.high : product.high << 1 | product.low >> 63,
-                      a.exponent() + b.exponent() + (full ? 1 : 0));
+    return {product.high << 1 | product.low >> 63, scale};
 }
 
-constexpr Real operator/(Real a, Real b) {
+constexpr Real operator/(const Real& a, const Real& b) {
     if (a.zero() || b.zero()) return {};
     const std::uint64_t quotient = divide_wide(a.mantissa_, b.mantissa_);
     const bool full = quotient >> 63 != 0;
@@ -237,7 +233,7 @@ constexpr Real operator/(Real a, Real b) {
                       a.exponent() - b.exponent() - (full ? 0 : 1));
 }
 
-constexpr bool operator<(Real a, Real b) {
+constexpr bool operator<(const Real& a, const Real& b) {
     if (a.negative() != b.negative()) return a.negative();
     const bool less = a.scale_ != b.scale_ ? a.scale_ < b.scale_ : a.mantissa_ < b.mantissa_;
     return a.negative() ? !less && a != b : less;

@@ -57,7 +57,7 @@ namespace narrow_words {
 constexpr std::uint32_t low_word(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
 constexpr std::uint32_t high_word(std::uint64_t value) { return static_cast<std::uint32_t>(value >> 32); }
 
-constexpr Wide multiply_wide(std::uint64_t a, std::uint64_t b) {
+[[gnu::always_inline]] constexpr Wide multiply_wide(std::uint64_t a, std::uint64_t b) {
     const std::uint64_t bottom = multiply_words(low_word(a), low_word(b));
     // At most (2^32-1)^2 + 2^32-1 < 2^64, and the same once more for the second middle product.
     const std::uint64_t middle = multiply_words(high_word(a), low_word(b)) + high_word(bottom);
