@@ -15,6 +15,7 @@
 #include <fovea/linear/svd.hpp>
 #include <fovea/number/logarithm.hpp>
 #include <fovea/number/real.hpp>
+#include <fovea/number/real_text.hpp>
 #include <fovea/number/scalar.hpp>
 #include <fovea/number/wide.hpp>
 #include <golden/digest.hpp>
@@ -74,6 +75,21 @@ inline void number_real(Workspace&, Digest& digest) {
         digest.add(scalar_of<Real>(a.rounded(12), -12), a.scaled(9), a.positive(), a.zero());
     }
     digest.add(Real(), Real::one(), log2_of(Real()));
+}
+
+inline void number_real_text(Workspace&, Digest& digest) {
+    Random random(66);
+    char text[8 + whole_real_digits] = {};
+    for (int i = 0; i < 40; ++i) {
+        const Real number = random_real(random, i < 20 ? 1 : 190);
+        const int digits = random.between(1, whole_real_digits);
+        const Result<int> length = print_real(number, digits, Span<char>(text));
+        digest.add(length);
+        if (!length) continue;
+        for (int k = 0; k < *length; ++k) digest.add(text[k]);
+        digest.add(parse_real(Span<const char>(text, *length)));
+    }
+    digest.add(print_real(Real(), 0, Span<char>(text)), parse_real(Span<const char>(text, 0)));
 }
 
 inline void linear_matrices(Workspace&, Digest& digest) {

@@ -56,6 +56,7 @@ inline constexpr Vector vectors[] = {
     {"number/int128", number_int128},
     {"number/integer", number_integer},
     {"number/real", number_real},
+    {"number/real_text", number_real_text},
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
     {"number/wide", number_wide},
