@@ -35,8 +35,8 @@ constexpr Result<Real> parse_real(Span<const char> text);
 /// out.
 ///
 /// Rounding  the nearest decimal number, of two the one whose last digit is even
-/// Errors    bad_argument for the digits; out_of_range for a magnitude outside of 10^-59 up to 10^59 that is not 0; buffer_too_small below 8 + digits characters
-///           of room
+/// Errors    bad_argument for the digits; out_of_range for a magnitude outside of 10^-59 up to 10^59 that is
+///           not 0; buffer_too_small below 8 + digits characters of room
 constexpr Result<int> print_real(Real value, int digits, Span<char> buffer);
 
 // ---- Implementation ---------------------------------------------------------------
