@@ -161,8 +161,8 @@ private:
         if (!binarize(threshold)) return false;
         int pattern_count = 0;
         const ListView<FinderPattern> patterns(pattern_room_.data(), max_finder_patterns, &pattern_count);
-        FinderSearch search(bits_, patterns);
-        search.rows(image.height() > tall ? 1 : 0, image.height() > tall ? 2 : 1);
+        // Gone before triples are tried, which need the stack.
+        FinderSearch(bits_, patterns).rows(image.height() > tall ? 1 : 0, image.height() > tall ? 2 : 1);
         FinderTriples triples(patterns);
         for (int i = 0; i < triples.size() && status_ == Status::ok && !enough() && !budget_.spent(); ++i) {
             if (triples.usable(i) && try_triple(triples.corner(i), triples.right(i), triples.below(i)))
