@@ -60,16 +60,18 @@ constexpr int border_modules(const DataMatrixSize& size) {
 inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, DataMatrixFrame& frame,
                          WorkBudget& budget) {
     const std::int32_t module = module_of(frame, size);
+    const int looks = border_modules(size);
+    budget.spend(looks);
     int best = clarity(field, frame, size);
     const int begin = best;
     EdgePlace* const corners[4] = {&frame.opposite, &frame.upper, &frame.right, &frame.corner};
-    const int looks = border_modules(size);
     for (std::int32_t move = module / 2; move >= maximum<std::int32_t>(module / 8, 24); move /= 2) {
         const EdgePlace ways[4] = {{move, 0}, {-move, 0}, {0, move}, {0, -move}};
         for (int round = 0; round < 2; ++round) {
             const int before = best;
             for (EdgePlace* corner : corners) {
                 for (const EdgePlace way : ways) {
+                    if (budget.spent()) return best > begin;
                     const EdgePlace was = *corner;
                     *corner = was + way;
                     const int now = clarity(field, frame, size);
@@ -81,7 +83,7 @@ inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, Dat
                     }
                 }
             }
-            if (best == before || budget.spent()) break;
+            if (best == before) break;
         }
     }
     return best > begin;
