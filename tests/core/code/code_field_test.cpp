@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <fovea/base/random.hpp>
 #include <fovea/code/code_field.hpp>
 
 namespace fovea::test {
@@ -37,6 +38,28 @@ TEST(CodeField, RemembersWhichSidesWerePassed) {
     passed.clear();
     EXPECT_FALSE(passed.left(65, 1));
     EXPECT_FALSE(passed.right(0, 2));
+}
+
+TEST(CodeField, StepsAlongALineSeeWhatSamplesTell) {
+    Random random(31);
+    std::uint8_t pixels[20 * 14];
+    for (std::uint8_t& pixel : pixels) pixel = static_cast<std::uint8_t>(random.between(0, 255));
+    for (const bool inverted : {false, true}) {
+        const CodeField field(ImageView<const Gray8>(pixels, {20, 14}, 20), inverted);
+        for (int round = 0; round < 200; ++round) {
+            // From beside the image, across it and out of it.
+            constexpr int pixel = 1 << 22;
+            const std::int64_t x = random.between(-4 * pixel, 24 * pixel);
+            const std::int64_t y = random.between(-4 * pixel, 18 * pixel);
+            const std::int64_t step_x = random.between(-pixel, pixel);
+            const std::int64_t step_y = random.between(-pixel, pixel);
+            detail::FieldSteps steps(field, x, y, step_x, step_y);
+            for (int i = 0; i < 30; ++i)
+                ASSERT_EQ(steps.next(), field.sample(static_cast<std::int32_t>((x + i * step_x) >> 14),
+                                                     static_cast<std::int32_t>((y + i * step_y) >> 14)))
+                    << round << ' ' << i;
+        }
+    }
 }
 
 }  // namespace

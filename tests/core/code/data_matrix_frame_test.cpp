@@ -38,5 +38,20 @@ TEST(DataMatrixFrame, IsNotInASolidRectangleNorInAnLWithoutDashes) {
     EXPECT_EQ(frame_of(image).status(), Status::not_found);
 }
 
+TEST(DataMatrixFrame, ThinPlacesHaveLightBehindThemAndAreWork) {
+    std::vector<std::uint8_t> pixels(100 * 40, 20);
+    const ImageView<Gray8> image(pixels.data(), {100, 40}, 100);
+    // Dark below row 10, and light again from row 14 on in the right half. The piece goes right along row 10,
+    // the dark on its right.
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 100; ++x)
+            if (y < 10 || (x >= 50 && y >= 14)) image(x, y) = 230;
+    const detail::BorderPiece piece{{2, 10}, {98, 10}, 96};
+    detail::WorkBudget budget(1000);
+    // Of 15 places, 6 px apart from x = 8 on, 8 are at 50 and more; the depths are 1, 5, 9 and so on to 29.
+    EXPECT_EQ(detail::thin_places(detail::CodeField(image, false), piece, 125, budget), 8);
+    EXPECT_EQ(budget.left(), 1000 - (8 * 2 + 7 * 8) / 4);
+}
+
 }  // namespace
 }  // namespace fovea::test

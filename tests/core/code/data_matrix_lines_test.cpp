@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <fovea/base/random.hpp>
 #include <fovea/code/data_matrix_lines.hpp>
 
 namespace fovea::test {
@@ -40,6 +41,24 @@ TEST(DataMatrixLines, AFitLeavesOutWhatLiesFarOff) {
     EXPECT_NEAR(line.at.y, 10, 2);
     EXPECT_NEAR(line.direction.y * 16, line.direction.x, 64);
     EXPECT_FALSE(detail::fit_edge(Span<const EdgePlace>(offsets, 2), about, direction_of(0, 1), line));
+}
+
+TEST(DataMatrixLines, StepsAlongThemLieWhereTheirMultiplesDo) {
+    Random random(47);
+    std::uint8_t pixels[40 * 30];
+    for (std::uint8_t& pixel : pixels) pixel = static_cast<std::uint8_t>(random.between(0, 255));
+    const detail::CodeField field(ImageView<const Gray8>(pixels, {40, 30}, 40), false);
+    for (int round = 0; round < 200; ++round) {
+        const EdgePlace start{random.between(-2000, 12000), random.between(-2000, 9000)};
+        const detail::Direction way = direction_of(random.between(-99, 99), random.between(-99, 99));
+        const int first = random.between(-500, 500);
+        const int step = random.between(1, 400);
+        detail::FieldSteps steps = steps_along(field, start, way, first, step);
+        for (int i = 0; i < 40; ++i) {
+            const EdgePlace p = start + way.times(first + i * step);
+            ASSERT_EQ(steps.next(), field.sample(p.x, p.y)) << round << ' ' << i;
+        }
+    }
 }
 
 }  // namespace

@@ -91,5 +91,25 @@ TEST(DataMatrixPlacement, SaysWhatIsWrong) {
     for (const std::uint8_t codeword : codewords) EXPECT_EQ(codeword, 7);
 }
 
+TEST(DataMatrixPlacement, PlacesAndBordersAreThoseOfTheRegions) {
+    for (const DataMatrixSize& size : data_matrix_sizes) {
+        const detail::DataMatrixPlaces places(size);
+        for (int row = 0; row < size.mapping().height; ++row)
+            for (int column = 0; column < size.mapping().width; ++column) {
+                const Point place = places(column, row);
+                ASSERT_EQ(place.x, column + 1 + 2 * (column / size.region_columns()));
+                ASSERT_EQ(place.y, row + 1 + 2 * (row / size.region_rows()));
+                ASSERT_EQ(data_matrix_border(size, place.x, place.y), DataMatrixModule::data);
+            }
+        int borders = 0;
+        detail::visit_borders(size, [&](int x, int y, bool dark) {
+            ++borders;
+            ASSERT_EQ(data_matrix_border(size, x, y),
+                      dark ? DataMatrixModule::dark : DataMatrixModule::light);
+        });
+        EXPECT_EQ(borders, size.rows * size.columns - size.mapping().area());
+    }
+}
+
 }  // namespace
 }  // namespace fovea::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -194,6 +195,68 @@ TEST(FinderFrame, RefusesWhatIsNoFinder) {
     EXPECT_FALSE(frame.measure({finders.view(), false}, pixel_place(50, 50), 1024, right, down));
     EXPECT_FALSE(frame.measure({finders.view(), false}, pixel_place(-500, 50), 1024, right, down));
     EXPECT_FALSE(frame.measure({finders.view(), false}, pixel_place(50, 50), 1024, {0, 0}, down));
+}
+
+/// A pattern of modules of one width and another height, its upper left corner at a place.
+void draw_upright(Finders& finders, int left, int top, int width, int height) {
+    for (int y = 0; y < 7 * height; ++y)
+        for (int x = 0; x < 7 * width; ++x) {
+            const int u = x / width < 3 ? 3 - x / width : x / width - 3;
+            const int v = y / height < 3 ? 3 - y / height : y / height - 3;
+            finders.view().set(left + x, top + y, std::max(u, v) != 2);
+        }
+}
+
+TEST(FinderSearch, ARowThatIsNoPatternDoesNotHideTheNext) {
+    // Steps of three from the ring into the middle, over the light: in the ring a row of the same five runs.
+    Finders leap(60, 60);
+    draw_upright(leap, 20, 20, 2, 2);
+    for (const int x : {22, 23, 30, 31}) leap.view().set(x, 21, false);
+    EXPECT_EQ(leap.find(3).size(), 1U);
+    // A tiny row in the last but one row of the middle, of which its column goes on for too long.
+    Finders tiny(60, 60);
+    draw_upright(tiny, 10, 10, 4, 4);
+    const int row = 10 + 4 * 5 - 2;
+    for (int x = 18; x < 30; ++x) tiny.view().set(x, row, x == 20 || (x > 21 && x < 25) || x == 26);
+    tiny.view().set(23, row, true);
+    FinderPattern room[max_finder_patterns];
+    int count = 0;
+    FinderSearch(tiny.view(), ListView<FinderPattern>(room, max_finder_patterns, &count)).rows(row, 1);
+    EXPECT_EQ(count, 1);
+    // Much higher than wide: from its first rows the middle goes on for longer than the pattern is wide.
+    Finders high(60, 90);
+    draw_upright(high, 10, 10, 3, 8);
+    EXPECT_EQ(high.find().size(), 1U);
+}
+
+TEST(FinderSearch, WhatIsKnownOfTheRowBeforeChangesNothing) {
+    Random random(53);
+    for (int round = 0; round < 60; ++round) {
+        const int module = 1 + round % 5;
+        const int step = 1 + round % 3;
+        Finders finders(130, 120);
+        // Modules at random have many rows that look like a pattern's.
+        std::vector<bool> dark(130 * 120);
+        for (std::size_t i = 0; i < dark.size(); ++i) dark[i] = random.between(0, 1) != 0;
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 130; ++x)
+                finders.view().set(x, y, dark[static_cast<std::size_t>(y / module * 130 + x / module)]);
+        finders.draw(60.2, 50.7, 2.2, round * 0.3);
+        FinderPattern room[max_finder_patterns];
+        int count = 0;
+        // Each row with a search of its own.
+        for (int y = 0; y < 120; y += step)
+            FinderSearch(finders.view(), ListView<FinderPattern>(room, max_finder_patterns, &count))
+                .rows(y, 120);
+        const std::vector<FinderPattern> found = finders.find(step);
+        ASSERT_EQ(found.size(), static_cast<std::size_t>(count)) << round;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            EXPECT_EQ(found[i].centre.x, room[i].centre.x) << round;
+            EXPECT_EQ(found[i].centre.y, room[i].centre.y) << round;
+            EXPECT_EQ(found[i].lines, room[i].lines) << round;
+            EXPECT_EQ(found[i].rings, room[i].rings) << round;
+        }
+    }
 }
 
 }  // namespace

@@ -56,6 +56,14 @@ private:
     FinderPattern finders_[3];
 };
 
+/// Whether planes put the corners of a symbol at the same places.
+bool same(const ModulePlane& a, const ModulePlane& b, int size) {
+    for (const PlanePoint corner : {module_corner(0, 0), module_corner(size, 0), module_corner(size, size)}) {
+        if (a(corner).x != b(corner).x || a(corner).y != b(corner).y) return false;
+    }
+    return true;
+}
+
 TEST(QrLocator, TellsTheSizeAndThePlane) {
     for (const int version : {1, 2, 5, 7, 12, 25}) {
         const int side = qr_size(version) * 6 + 60;
@@ -68,7 +76,15 @@ TEST(QrLocator, TellsTheSizeAndThePlane) {
         ASSERT_GT(locator.find_planes(qr_size(version)), 0);
         ModulePlane plane = locator.plane(0);
         EXPECT_GE(locator.refine(qr_size(version), plane), 950) << version;
-        locator.settle(qr_size(version), plane);
+        const ModulePlane refined = plane;
+        WorkBudget none(0);
+        locator.settle(qr_size(version), plane, none);
+        EXPECT_TRUE(same(plane, refined, qr_size(version))) << version;
+        EXPECT_LT(none.left(), 0);
+        WorkBudget work(1 << 20);
+        locator.settle(qr_size(version), plane, work);
+        // All eight ways at each of three steps, at least.
+        EXPECT_LE(work.left(), (1 << 20) + 25 * none.left()) << version;
         QrGrid grid;
         locator.find_grid(qr_size(version), plane, grid);
         ASSERT_TRUE(grid_inside(grid, qr_size(version), {side, side}));

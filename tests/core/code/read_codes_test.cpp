@@ -125,5 +125,44 @@ TEST(ReadCodes, SaysWhatIsWrong) {
     EXPECT_EQ(codes.size(), 0);
 }
 
+TEST(ReadCodes, LooksForASmallMatrixBeforeBarsWhereEdgesCross) {
+    Sheet sheet({170, 190});
+    sheet.draw({4, 110}, Symbology::data_matrix, "part 4711", 4);
+    EXPECT_TRUE(detail::small_matrix_likely(sheet.view()));
+    for (int y = 60; y < 68; ++y)
+        for (int x = 4; x < 8; ++x) sheet.pixels[static_cast<std::size_t>(y * 170 + x)] = 30;
+    ReadCodesOptions options;
+    options.most_codes = 1;
+    EXPECT_EQ(read(sheet, options).texts, std::vector<std::string>{"part 4711"});
+    // Bars lie one way, at any angle, and edges of large images are not asked.
+    for (int turn = 0; turn < 8; ++turn) {
+        Sheet bars({160, 120});
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 160; ++x)
+                if ((x * (4 - turn) + y * turn) / 13 % 2 == 0)
+                    bars.pixels[static_cast<std::size_t>(y * 160 + x)] = 30;
+        EXPECT_FALSE(detail::small_matrix_likely(bars.view())) << turn;
+    }
+    EXPECT_FALSE(detail::small_matrix_likely(all_kinds().view()));
+    // Modules of any size, at any place.
+    for (int module = 1; module < 9; ++module)
+        for (int shift = 0; shift < 4; ++shift) {
+            Sheet modules({120, 100});
+            modules.draw({shift, shift % 3}, Symbology::data_matrix, "9", module);
+            EXPECT_TRUE(detail::small_matrix_likely(modules.view())) << module << ' ' << shift;
+        }
+}
+
+TEST(ReadCodes, OfASmallImageWithBothTellsTheMatrixFirst) {
+    Sheet sheet({220, 140});
+    sheet.draw({4, 2}, Symbology::ean_8, "96385074", 1);
+    sheet.draw({90, 2}, Symbology::data_matrix, "lot 4711 and 4712 and 4713", 5);
+    ASSERT_TRUE(detail::small_matrix_likely(sheet.view()));
+    EXPECT_EQ(read(sheet).codes.size(), 2U);
+    ReadCodesOptions options;
+    options.most_codes = 1;
+    EXPECT_EQ(read(sheet, options).texts, std::vector<std::string>{"lot 4711 and 4712 and 4713"});
+}
+
 }  // namespace
 }  // namespace fovea::test

@@ -162,5 +162,30 @@ TEST(ReadDataMatrix, GradesACleanSymbolBestAndAPaleOneLower) {
     EXPECT_EQ(grade.decodability, CodeGrade::not_graded);
 }
 
+TEST(ReadDataMatrix, TriesTheCornersOfTheRowInWhichTheWorkEnds) {
+    DataMatrixScene scene;
+    scene.size = {10, 10};
+    scene.text = "42";
+    scene.module = 2;
+    DrawnImage symbol = draw(scene);
+    DrawnImage image;
+    image.size = {320, 240};
+    ReadDataMatrixOptions options;
+    options.effort = ReadDataMatrixOptions::Effort::quick;
+    options.polarity = CodePolarity::dark_on_light;
+    // Between two eighths of the image, so that it is met in a batch of rows, with noise beside it. From
+    // there on, and so dark, its borders take the work that was left to the batch.
+    const int scenes[5][2] = {{80, 40}, {100, 45}, {120, 45}, {200, 40}, {220, 30}};
+    for (const auto& [left, percent] : scenes) {
+        Random random(5);
+        image.pixels.assign(static_cast<std::size_t>(image.size.area()), 220);
+        for (int y = 0; y < symbol.size.height; ++y)
+            for (int x = 0; x < symbol.size.width; ++x) image.view()(20 + x, 31 + y) = symbol.view()(x, y);
+        for (int y = 0; y < 70; ++y)
+            for (int x = left; x < 320; ++x) image.view()(x, y) = random.between(0, 99) < percent ? 20 : 220;
+        EXPECT_EQ(find_data_matrix(image.view(), options).texts, std::vector<std::string>{"42"}) << left;
+    }
+}
+
 }  // namespace
 }  // namespace fovea::test

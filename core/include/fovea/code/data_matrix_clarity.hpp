@@ -42,24 +42,12 @@ inline int clarity(const CodeField& field, const DataMatrixFrame& frame, const D
     if (!map.there()) return -5000;
     std::int64_t sum = 0;
     int count = 0;
-    for (int y = 0; y < size.rows; ++y) {
-        const int row = y % (size.region_rows() + 2);
-        const bool whole = row == 0 || row == size.region_rows() + 1;
-        for (int x = 0; x < size.columns; ++x) {
-            const DataMatrixModule module = data_matrix_border(size, x, y);
-            if (module == DataMatrixModule::data) {
-                // On to the region's last column.
-                if (!whole) x += size.region_columns() - 1;
-                continue;
-            }
-            const EdgePlace p =
-                map(static_cast<std::int32_t>((std::int64_t{2 * x + 1} * 65536) / (2 * size.columns)),
-                    static_cast<std::int32_t>((std::int64_t{2 * y + 1} * 65536) / (2 * size.rows)));
-            const int value = field.sample(p.x, p.y);
-            sum += module == DataMatrixModule::light ? value : -value;
-            ++count;
-        }
-    }
+    visit_borders(size, [&](int x, int y, bool dark) {
+        const EdgePlace p = map(module_middle(x, size.columns), module_middle(y, size.rows));
+        const int value = field.sample(p.x, p.y);
+        sum += dark ? -value : value;
+        ++count;
+    });
     return static_cast<int>(sum / count);
 }
 
@@ -72,16 +60,18 @@ constexpr int border_modules(const DataMatrixSize& size) {
 inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, DataMatrixFrame& frame,
                          WorkBudget& budget) {
     const std::int32_t module = module_of(frame, size);
+    const int looks = border_modules(size);
+    budget.spend(looks);
     int best = clarity(field, frame, size);
     const int begin = best;
     EdgePlace* const corners[4] = {&frame.opposite, &frame.upper, &frame.right, &frame.corner};
-    const int looks = border_modules(size);
     for (std::int32_t move = module / 2; move >= maximum<std::int32_t>(module / 8, 24); move /= 2) {
         const EdgePlace ways[4] = {{move, 0}, {-move, 0}, {0, move}, {0, -move}};
         for (int round = 0; round < 2; ++round) {
             const int before = best;
             for (EdgePlace* corner : corners) {
                 for (const EdgePlace way : ways) {
+                    if (budget.spent()) return best > begin;
                     const EdgePlace was = *corner;
                     *corner = was + way;
                     const int now = clarity(field, frame, size);
@@ -93,7 +83,7 @@ inline bool make_clearer(const CodeField& field, const DataMatrixSize& size, Dat
                     }
                 }
             }
-            if (best == before || budget.spent()) break;
+            if (best == before) break;
         }
     }
     return best > begin;

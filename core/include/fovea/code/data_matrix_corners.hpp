@@ -114,29 +114,25 @@ inline void CornerFinder::add(Point p) {
         if (reach_ >= 16) finish_piece();
         return;
     }
-    if (!open_ && (distance + 12 < reach_ || cross(low_, v) < 0 || cross(v, high_) < 0 ||
-                   std::int64_t{v.x} * low_.x + std::int64_t{v.y} * low_.y <= 0)) {
+    const std::int64_t from_low = open_ ? 0 : cross(low_, v);
+    const std::int64_t to_high = open_ ? 0 : cross(v, high_);
+    if (distance + 12 < reach_ || from_low < 0 || to_high < 0) {
         const Point corner = far_;
         finish_piece();
         restart(corner);
         // What follows the corner begins a new piece; the points between lie within a pixel or two of it.
         return;
     }
-    // A pixel and a quarter aside, more on a long way: lenses bend lines.
+    // A pixel and a quarter aside, more on a long way: lenses bend lines. At a distance of 8 that is 32
+    // degrees, so that no direction between low and high points back.
     const std::int32_t aside = 5 + (distance < 4 * 128 ? distance / 128 : 4);
-    Vector low = v;
-    Vector high = v;
-    if (ax >= ay) {
-        const std::int32_t turned = v.x > 0 ? aside : -aside;
-        low.y -= turned;
-        high.y += turned;
-    } else {
-        const std::int32_t turned = v.y > 0 ? aside : -aside;
-        low.x += turned;
-        high.x -= turned;
-    }
-    if (open_ || cross(low_, low) > 0) low_ = low;
-    if (open_ || cross(high, high_) > 0) high_ = high;
+    const bool flat = ax >= ay;
+    const std::int32_t turned = (flat ? v.x : v.y) > 0 ? aside : -aside;
+    // cross() of what was left and of v turned by that, on both sides.
+    if (open_ || from_low > std::int64_t{flat ? low_.x : low_.y} * turned)
+        low_ = flat ? Vector{v.x, v.y - turned} : Vector{v.x + turned, v.y};
+    if (open_ || to_high > std::int64_t{flat ? high_.x : high_.y} * turned)
+        high_ = flat ? Vector{v.x, v.y + turned} : Vector{v.x - turned, v.y};
     open_ = false;
     if (distance >= reach_) {
         reach_ = distance;
@@ -207,6 +203,8 @@ inline int follow_corners(const CodeField& field, Point start, int from, int thr
     const std::ptrdiff_t stride = field.stride();
     const std::ptrdiff_t offset[8] = {1,  stride + 1,  stride,  stride - 1,
                                       -1, -stride - 1, -stride, 1 - stride};
+    // The light neighbour from which the next turn begins.
+    constexpr std::uint8_t next_light[8] = {6, 6, 0, 0, 2, 2, 4, 4};
     CornerFinder finder(corners, field.size(), threshold);
     finder.begin(start);
     Point at = start;
@@ -220,8 +218,12 @@ inline int follow_corners(const CodeField& field, Point start, int from, int thr
         int way = light;
         int turned = 0;
         while (true) {
-            if (way == 4) passed.pass_left(at.x, at.y);
-            if (way == 0) passed.pass_right(at.x, at.y);
+            if ((way & 3) == 0) {
+                if (way == 0)
+                    passed.pass_right(at.x, at.y);
+                else
+                    passed.pass_left(at.x, at.y);
+            }
             way = (way + 1) & 7;
             ++turned;
             if (inside || (static_cast<unsigned>(at.x + step_x[way]) < static_cast<unsigned>(width) &&
@@ -232,7 +234,7 @@ inline int follow_corners(const CodeField& field, Point start, int from, int thr
         }
         at = {at.x + step_x[way], at.y + step_y[way]};
         here += offset[way];
-        light = (way + (way % 2 == 0 ? 6 : 5)) & 7;
+        light = next_light[way];
         finder.add(at);
         // Closed, also when it comes to the start from another side.
         if (at == start && ((from - light) & 7) < 3) {

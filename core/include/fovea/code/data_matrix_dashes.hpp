@@ -63,6 +63,17 @@ private:
     static constexpr int least_score = 16;  ///< two good periods, and nothing bad
     static constexpr int most_tries = 200;  ///< of the way of a dashed line, to each side
 
+    /// What was found on a way, of which j is the tilt.
+    struct Trial {
+        int j = 1 << 30;
+        int score = 0;
+        int modules = 0;
+        bool met = false;  ///< the first dashes
+        bool even = false;
+        bool good = false;  ///< a dashed line
+    };
+    static constexpr int known_trials = 16;  ///< a power of two
+
     int value(EdgePlace p) const { return field_.sample(p.x, p.y); }
     void follow_dashes(EdgePlace start, Direction way, std::int32_t beside, DashedLine& dashed) const;
     EdgeLine edge_of(const EdgeLine& centre, Direction outward, const DashedLine& dashed) const;
@@ -126,36 +137,51 @@ inline void DashFinder::follow_dashes(EdgePlace start, Direction way, std::int32
     bool rising = false;  // from the last extreme, a dark one, up
     int low = 0;
     int high = 0;
-    int turned = 0;
+    int extreme = 4081;                 // the sample at low, or at high where it rises; above all at first
+    std::int32_t since = 0;             // the way from where it turned
+    std::int32_t most = 5 * pitch / 2;  // of that way
     bool ended = false;
-    for (int i = 0; begin + step * i <= longest; ++i) {
-        const int now = value(start + way.times(begin + step * i));
-        scratch_.budget.spend(1);
+    const int count = longest < begin ? 0 : static_cast<int>((longest - begin) / step) + 1;
+    FieldSteps steps = steps_along(field_, start, way, begin, step);
+    int i = 0;
+    for (; i < count; ++i, since += step) {
+        const int now = steps.next();
         samples[i] = static_cast<std::int16_t>(now);
         if (!rising) {
-            if (now < samples[low]) low = i;
-            if (now > samples[low] + hysteresis_) {
+            if (now < extreme) {
+                extreme = now;
+                low = i;
+            }
+            if (now > extreme + hysteresis_) {
                 if (high > 0) change(high, low);
                 rising = true;
+                extreme = now;
                 high = i;
-                turned = i;
-            } else if (step * (i - turned) > 5 * pitch / 2) {
+                since = 0;
+                most = dashed.changes < 2 ? 3 * module_ : 7 * pitch / 4;
+            } else if (since > most) {
                 break;
             }
         } else {
-            if (now > samples[high]) high = i;
-            if (now < samples[high] - hysteresis_) {
+            if (now > extreme) {
+                extreme = now;
+                high = i;
+            }
+            if (now < extreme - hysteresis_) {
                 change(low, high);
                 rising = false;
+                extreme = now;
                 low = i;
-                turned = i;
-            } else if (step * (i - turned) > (dashed.changes < 2 ? 3 * module_ : 7 * pitch / 4)) {
+                since = 0;
+                most = 5 * pitch / 2;
+            } else if (since > most) {
                 change(low, high);
                 ended = true;
                 break;
             }
         }
     }
+    scratch_.budget.spend(minimum(i + 1, count));
     if (!ended) {
         // The image or the longest way ended first.
         if (rising) change(low, high);
@@ -198,42 +224,42 @@ bool DashFinder::find(const SolidLine& from, const SolidLine& beside, Allowed al
                             beside.line.direction.y - (std::int64_t{from.line.direction.y} * j * step >> 14));
     };
     DashedLine& now = scratch_.trial;
+    // Of the last ways what was found on them, so that none of these is followed again.
+    Trial trials[known_trials];
     const auto follow = [&](int j) {
+        Trial& trial = trials[j & (known_trials - 1)];
+        if (trial.j == j) return trial;
         follow_dashes(start, way_of(j), beside.length, now);
+        trial.j = j;
+        trial.met = now.changes >= 3;
+        trial.even = now.even;
+        trial.modules = now.modules();
         // A slight tilt is likelier than a strong one.
-        now.score -= (j < 0 ? -j : j) / 4;
-        return now.score >= least_score && allowed(now.modules());
+        trial.score = now.score - (j < 0 ? -j : j) / 4;
+        trial.good = trial.score >= least_score && allowed(trial.modules);
+        return trial;
     };
     // The first dashes are met at any tilt.
-    bool any = false;
-    for (int j = -tries / 2; j <= tries / 2 && !any; j += maximum(tries / 2, 1)) {
-        static_cast<void>(follow(j));
-        any = now.changes >= 3;
-    }
-    if (!any) return false;
-    int best = 0;
-    int best_j = 0;
-    bool even = false;
+    if (!follow(0).met && !follow(-tries / 2).met && !follow(tries / 2).met) return false;
+    Trial best;
+    best.j = 0;
     // 0, 1, -1, 2, -2, or twice that where dashes are large enough to be met off their middle.
     const int stride = module_ < 4 * 256 ? 1 : 2;
     for (int n = 0; n * stride <= 2 * tries; ++n) {
         const int j = stride * (n % 2 == 0 ? -n / 2 : (n + 1) / 2);
         if (scratch_.budget.spent()) return false;
-        if (even && (j < 0 ? -j : j) > (best_j < 0 ? -best_j : best_j) + 2) break;
-        if (!follow(j) || now.score <= best) continue;
-        best = now.score;
-        best_j = j;
-        even = now.even;
+        if (best.even && (j < 0 ? -j : j) > (best.j < 0 ? -best.j : best.j) + 2) break;
+        const Trial trial = follow(j);
+        if (trial.good && trial.score > best.score) best = trial;
     }
-    if (best == 0) return false;
+    if (best.score == 0) return false;
     // The middle of all ways that say the same.
-    static_cast<void>(follow(best_j));
-    const int modules = now.modules();
-    int ends[2] = {best_j, best_j};
+    int ends[2] = {best.j, best.j};
     for (int side = 0; side < 2; ++side) {
         const int move = side == 0 ? -1 : 1;
-        for (int j = best_j + move; (j - best_j) * move <= 6; j += move) {
-            if (!follow(j) || now.modules() != modules || now.score < best - 6) break;
+        for (int j = best.j + move; (j - best.j) * move <= 6; j += move) {
+            const Trial trial = follow(j);
+            if (!trial.good || trial.modules != best.modules || trial.score < best.score - 6) break;
             ends[side] = j;
         }
     }
@@ -244,8 +270,8 @@ bool DashFinder::find(const SolidLine& from, const SolidLine& beside, Allowed al
     Direction way = direction_of(half(beside.line.direction.x, from.line.direction.x),
                                  half(beside.line.direction.y, from.line.direction.y));
     follow_dashes(start, way, beside.length, dashed);
-    if (dashed.modules() != modules || dashed.score < best - 12) {
-        way = way_of(best_j);
+    if (dashed.modules() != best.modules || dashed.score < best.score - 12) {
+        way = way_of(best.j);
         follow_dashes(start, way, beside.length, dashed);
     }
     edge = edge_of({start, way}, from.line.direction, dashed);
@@ -266,8 +292,9 @@ inline EdgeLine DashFinder::edge_of(const EdgeLine& centre, Direction outward,
         const int between = (dark + light) / 2;
         if (light - dark < 2 * hysteresis_) continue;
         int before = dark;
+        FieldSteps across = steps_along(field_, middle, outward, step, step);
         for (std::int32_t aside = step; aside <= module_ + module_ / 4; aside += step) {
-            const int now = value(middle + outward.times(aside));
+            const int now = across.next();
             if (now >= between) {
                 offsets[count++] = {along, aside - step * (now - between) / maximum(now - before, 1)};
                 break;

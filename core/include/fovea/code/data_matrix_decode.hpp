@@ -53,24 +53,10 @@ struct BorderErrors {
 };
 inline BorderErrors border_errors(BitView<const BitWord> modules, const DataMatrixSize& size) {
     BorderErrors errors;
-    const int width = size.region_columns() + 2;
-    const int height = size.region_rows() + 2;
-    const auto look = [&](int x, int y) {
-        const bool dark = data_matrix_border(size, x, y) == DataMatrixModule::dark;
+    visit_borders(size, [&](int x, int y, bool dark) {
         ++errors.all;
         errors.wrong += modules(x, y) != dark ? 1 : 0;
-    };
-    for (int y = 0; y < size.rows; ++y) {
-        const bool whole = y % height == 0 || y % height == height - 1;
-        for (int x = 0; x < size.columns; x += width) {
-            if (!whole) {
-                look(x, y);
-                look(x + width - 1, y);
-            } else {
-                for (int i = 0; i < width; ++i) look(x + i, y);
-            }
-        }
-    }
+    });
     return errors;
 }
 

@@ -5,13 +5,13 @@
 
 #include <cstdint>
 
-#include <fovea/base/order.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/code/data_matrix_corners.hpp>
 #include <fovea/code/data_matrix_dashes.hpp>
 #include <fovea/code/data_matrix_lines.hpp>
 #include <fovea/code/data_matrix_sizes.hpp>
+#include <fovea/code/work_budget.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/number/integer.hpp>
 
@@ -28,23 +28,34 @@ struct DataMatrixFrame {
 };
 
 /// At how many of 15 places along a piece light lies behind the dark, nearer than a third of its length:
-/// beside the solid line of a symbol that is so for about half of the modules.
-inline int thin_places(const CodeField& field, const BorderPiece& piece, int threshold) {
+/// beside the solid line of a symbol that is so for about half of the modules. A unit of work for four
+/// pixels, as nothing is done between them.
+inline int thin_places(const CodeField& field, const BorderPiece& piece, int threshold, WorkBudget& budget) {
     constexpr int places = 16;
+    constexpr int most_depths = 16;
     const int reach = piece.length / 3;
     const int step = maximum(reach / 8, 1);
+    // Images have 2^15 px a side: all products stay below 2^31.
+    const int along_x = piece.last.x - piece.first.x;
+    const int along_y = piece.last.y - piece.first.y;
+    Point inward[most_depths];
+    int depths = 0;
+    for (int depth = 1; depth <= reach; depth += step)
+        inward[depths++] = {-(along_y * depth / piece.length), along_x * depth / piece.length};
     int light = 0;
+    int looks = 0;
     for (int i = 1; i < places; ++i) {
-        const int x = piece.first.x + static_cast<int>(piece.x() * i / places);
-        const int y = piece.first.y + static_cast<int>(piece.y() * i / places);
-        for (int depth = 1; depth <= reach; depth += step) {
-            if (field.pixel(x - static_cast<int>(piece.y() * depth / piece.length),
-                            y + static_cast<int>(piece.x() * depth / piece.length)) < threshold)
-                continue;
+        const int x = piece.first.x + along_x * i / places;
+        const int y = piece.first.y + along_y * i / places;
+        int k = 0;
+        for (; k < depths; ++k) {
+            if (field.pixel(x + inward[k].x, y + inward[k].y) < threshold) continue;
             ++light;
             break;
         }
+        looks += minimum(k + 1, depths);
     }
+    budget.spend(looks / 4);
     return light;
 }
 
@@ -108,8 +119,9 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
         int levels[steps];
         int low = 4080;
         int high = 0;
+        FieldSteps across = steps_along(field_, middle, outward, -448, 128);
         for (int k = 0; k < steps; ++k) {
-            levels[k] = value(middle + outward.times(128 * k - 448));
+            levels[k] = across.next();
             low = minimum(low, levels[k]);
             high = maximum(high, levels[k]);
         }
@@ -131,9 +143,10 @@ inline bool FrameFinder::refine(const EdgeLine& chord, Direction outward, std::i
 /// A quarter of the dark runs from the edge inward are shorter: about one module, as data there are light
 /// half of the time.
 inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t from, std::int32_t to) const {
-    std::int32_t runs[probes];
+    constexpr int quarter = probes / 4;
+    std::int32_t shortest[quarter + 1];  // in order
     int looks = 0;
-    const std::int32_t most = maximum<std::int32_t>((to - from) / 4, 512);
+    std::int32_t most = maximum<std::int32_t>((to - from) / 4, 512);
     const std::int32_t step = clamp<std::int32_t>(most / 32, 64, 512);
     for (int i = 0; i < probes; ++i) {
         const std::int32_t along =
@@ -144,18 +157,24 @@ inline std::int32_t FrameFinder::thickness(const SolidLine& arm, std::int32_t fr
         const int between = light - dark > 128 ? (light + dark) / 2 : threshold_;
         std::int32_t depth = 96;
         int before = between - 1;
+        FieldSteps inward = steps_along(field_, edge, arm.inward, depth, step);
         for (; depth < most; depth += step, ++looks) {
-            const int now = value(edge + arm.inward.times(depth));
+            const int now = inward.next();
             if (now >= between) {
                 depth -= step * (now - between) / maximum(now - before, 1);
                 break;
             }
             before = now;
         }
-        runs[i] = depth;
+        int place = minimum(i, quarter);
+        if (i > quarter && depth >= shortest[quarter]) continue;
+        for (; place > 0 && shortest[place - 1] > depth; --place) shortest[place] = shortest[place - 1];
+        shortest[place] = depth;
+        // What is longer than these does not count; the last look is up to a step behind the light.
+        if (i >= quarter) most = minimum(most, shortest[quarter] + step);
     }
     scratch_.dash.budget.spend(3 * probes + looks);
-    return nth_smallest(Span<std::int32_t>(runs), probes / 4);
+    return shortest[quarter];
 }
 
 /// How far a solid line goes from the corner.
@@ -172,22 +191,26 @@ inline std::int32_t FrameFinder::walk(const SolidLine& arm) const {
     std::int32_t end = 0;
     int before = dark;
     bool in_dark = true;
+    std::int64_t looks = 0;
+    FieldSteps inside = steps_along(field_, start, arm.line.direction, module_ / 2, step);
+    FieldSteps beside = steps_along(field_, outside, arm.line.direction, module_ / 2, step);
     for (std::int32_t along = module_ / 2; along < largest_; along += step) {
-        const int now = value(start + arm.line.direction.times(along));
-        light = (7 * light + value(outside + arm.line.direction.times(along))) / 8;
-        const int between = (light + dark) / 2;
+        const int now = inside.next();
+        light = (7 * light + beside.next()) >> 3;
+        looks += 2;
+        const int between = (light + dark) >> 1;
         if (now < between) {
             in_dark = true;
             end = along;
-            dark = (7 * dark + now) / 8;
+            dark = (7 * dark + now) >> 3;
         } else {
             if (in_dark) end = along - (before < between ? step * (now - between) / (now - before) : step);
             in_dark = false;
             if (along - end > gap) break;
         }
         before = now;
-        scratch_.dash.budget.spend(2);
     }
+    scratch_.dash.budget.spend(looks);
     return end;
 }
 

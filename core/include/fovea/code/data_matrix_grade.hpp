@@ -32,9 +32,7 @@ inline std::int8_t quiet_zone_grade(const CodeField& field, const SquareToQuad& 
     int light = 0;
     int all = 0;
     const auto look = [&](int x, int y) {
-        const EdgePlace p =
-            map(static_cast<std::int32_t>((std::int64_t{2 * x + 1} * 65536) / (2 * size.columns)),
-                static_cast<std::int32_t>((std::int64_t{2 * y + 1} * 65536) / (2 * size.rows)));
+        const EdgePlace p = map(module_middle(x, size.columns), module_middle(y, size.rows));
         ++all;
         light += field.sample(p.x, p.y) > 16 * threshold ? 1 : 0;
     };

@@ -25,7 +25,23 @@ public:
 
     bool there() const { return there_; }
     /// u and v in 1/65536, from -1/2 to 3/2.
-    EdgePlace operator()(std::int32_t u, std::int32_t v) const;
+    EdgePlace operator()(std::int32_t u, std::int32_t v) const { return place(sums(u, v)); }
+
+    /// Places at the same distance from others: operator()(u + aside.u, v + aside.v) is place(sums(u, v) +
+    /// sums(aside.u, aside.v)).
+    struct Sums {
+        std::int64_t x;
+        std::int64_t y;
+        std::int64_t divisor;
+
+        friend Sums operator+(const Sums& a, const Sums& b) {
+            return {a.x + b.x, a.y + b.y, a.divisor + b.divisor};
+        }
+    };
+    Sums sums(std::int32_t u, std::int32_t v) const {
+        return {ax_ * u + bx_ * v, ay_ * u + by_ * v, g_ * u + h_ * v};
+    }
+    EdgePlace place(const Sums& sums) const;
 
 private:
     EdgePlace origin_;
@@ -38,6 +54,11 @@ private:
     std::int64_t h_ = 0;
     bool there_ = false;
 };
+
+/// Where in the unit square the middle of a module is, in 1/65536, rounded towards 0.
+constexpr std::int32_t module_middle(std::int32_t module, std::int32_t modules) {
+    return (2 * module + 1) * 32768 / modules;
+}
 
 /// Brightness of every module, 0 to 255, row by row.
 inline void sample_modules(const CodeField& field, const SquareToQuad& map, int rows, int columns,
@@ -90,11 +111,11 @@ inline SquareToQuad::SquareToQuad(EdgePlace p0, EdgePlace p1, EdgePlace p2, Edge
     there_ = true;
 }
 
-inline EdgePlace SquareToQuad::operator()(std::int32_t u, std::int32_t v) const {
+inline EdgePlace SquareToQuad::place(const Sums& sums) const {
     // Numerators of 2^35 and 17 bits, then shifted to 2^36 + 12.
-    const std::int64_t x = (ax_ * u + bx_ * v) >> 16;
-    const std::int64_t y = (ay_ * u + by_ * v) >> 16;
-    const std::int64_t divisor = (std::int64_t{1} << 20) + ((g_ * u + h_ * v) >> 16);
+    const std::int64_t x = sums.x >> 16;
+    const std::int64_t y = sums.y >> 16;
+    const std::int64_t divisor = (std::int64_t{1} << 20) + (sums.divisor >> 16);
     if (divisor == 1 << 20)
         return origin_ + EdgePlace{static_cast<std::int32_t>(x >> 8), static_cast<std::int32_t>(y >> 8)};
     const std::int64_t by = maximum<std::int64_t>(divisor, 1 << 16);
@@ -109,17 +130,19 @@ inline void sample_modules(const CodeField& field, const SquareToQuad& map, int 
     const bool wide = pitch >= 3 * 256;
     const std::int32_t aside_u = 65536 / (6 * columns);
     const std::int32_t aside_v = 65536 / (6 * rows);
+    const SquareToQuad::Sums asides[4] = {map.sums(-aside_u, -aside_v), map.sums(aside_u, -aside_v),
+                                          map.sums(-aside_u, aside_v), map.sums(aside_u, aside_v)};
     for (int y = 0; y < rows; ++y) {
-        const std::int32_t v = static_cast<std::int32_t>((std::int64_t{2 * y + 1} * 65536) / (2 * rows));
+        const SquareToQuad::Sums row = map.sums(0, module_middle(y, rows));
         for (int x = 0; x < columns; ++x) {
-            const std::int32_t u =
-                static_cast<std::int32_t>((std::int64_t{2 * x + 1} * 65536) / (2 * columns));
-            const EdgePlace p = map(u, v);
+            const SquareToQuad::Sums middle = row + map.sums(module_middle(x, columns), 0);
+            const EdgePlace p = map.place(middle);
             int sum = field.sample(p.x, p.y);
             if (wide) {
-                const EdgePlace q[4] = {map(u - aside_u, v - aside_v), map(u + aside_u, v - aside_v),
-                                        map(u - aside_u, v + aside_v), map(u + aside_u, v + aside_v)};
-                for (const EdgePlace place : q) sum += field.sample(place.x, place.y);
+                for (const SquareToQuad::Sums& aside : asides) {
+                    const EdgePlace q = map.place(middle + aside);
+                    sum += field.sample(q.x, q.y);
+                }
                 sum /= 5;
             }
             values[std::ptrdiff_t{y} * columns + x] = static_cast<std::uint8_t>(sum >> 4);
@@ -161,8 +184,9 @@ inline void classify_modules(Span<const std::uint8_t> values, const DataMatrixSi
     const BorderLevels levels = border_levels(values, size);
     const int level = (levels.dark + levels.light + 1) / 2;
     if (rule == ModuleRule::one_level) {
+        const std::uint8_t* value = values.data();
         for (int y = 0; y < rows; ++y)
-            for (int x = 0; x < columns; ++x) modules.set(x, y, at(values, x, y) < level);
+            for (int x = 0; x < columns; ++x) modules.set(x, y, *value++ < level);
         return;
     }
     Span<const std::uint8_t> from = values;

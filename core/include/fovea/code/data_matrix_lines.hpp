@@ -7,6 +7,7 @@
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/code/code_field.hpp>
 #include <fovea/number/integer.hpp>
 
 namespace fovea::detail {
@@ -46,6 +47,15 @@ struct EdgeLine {
     EdgePlace at;
     Direction direction;
 };
+
+/// Samples at start + direction.times(first + n * step), n from 0 on.
+inline FieldSteps steps_along(const CodeField& field, EdgePlace start, Direction direction,
+                              std::int32_t first, std::int32_t step) {
+    constexpr std::int64_t unit = 1 << 14;
+    return FieldSteps(field, start.x * unit + std::int64_t{direction.x} * first,
+                      start.y * unit + std::int64_t{direction.y} * first, std::int64_t{direction.x} * step,
+                      std::int64_t{direction.y} * step);
+}
 
 /// Where two lines cross; not_found where they hardly do, or far outside of any image.
 constexpr Result<EdgePlace> crossing(const EdgeLine& a, const EdgeLine& b);

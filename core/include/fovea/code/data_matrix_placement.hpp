@@ -54,9 +54,40 @@ constexpr DataMatrixModule data_matrix_border(const DataMatrixSize& size, int x,
 
 namespace detail {
 
-/// The module of the whole symbol at a place of the mapping matrix.
-constexpr Point data_matrix_place(const DataMatrixSize& size, int column, int row) {
-    return {column + 1 + 2 * (column / size.region_columns()), row + 1 + 2 * (row / size.region_rows())};
+/// The modules of the whole symbol at places of the mapping matrix.
+class DataMatrixPlaces {
+public:
+    constexpr explicit DataMatrixPlaces(const DataMatrixSize& size)
+        : columns_(reciprocal(size.region_columns())), rows_(reciprocal(size.region_rows())) {}
+
+    constexpr Point operator()(int column, int row) const {
+        return {column + 1 + 2 * (column * columns_ >> 16), row + 1 + 2 * (row * rows_ >> 16)};
+    }
+
+private:
+    /// n times it, shifted by 16, is n / divisor while n * divisor is below 2^16, and sides are below 2^8.
+    static constexpr int reciprocal(int divisor) { return (1 << 16) / divisor + 1; }
+
+    int columns_;
+    int rows_;
+};
+
+/// visit(x, y, dark) for the modules of the borders of all regions.
+template <class Visit>
+constexpr void visit_borders(const DataMatrixSize& size, Visit visit) {
+    const int width = size.region_columns() + 2;
+    const int height = size.region_rows() + 2;
+    for (int top = 0; top < size.rows; top += height) {
+        for (int row = 0; row < height; ++row) {
+            const bool whole = row == 0 || row == height - 1;
+            for (int left = 0; left < size.columns; left += width) {
+                for (int i = 0; i < width; i += whole ? 1 : width - 1) {
+                    const bool dark = i == 0 || row == height - 1 || (row == 0 ? i % 2 == 0 : row % 2 != 0);
+                    visit(left + i, top + row, dark);
+                }
+            }
+        }
+    }
 }
 
 /// Walks the mapping matrix of a size and tells for every codeword where its bits are.
@@ -170,9 +201,10 @@ inline Status data_matrix_codewords(BitView<const BitWord> modules, const DataMa
     if (s != Status::ok) return s;
     for (int i = 0; i < size.codewords(); ++i) codewords[i] = 0;
     const Size mapping = size.mapping();
+    const detail::DataMatrixPlaces places(size);
     detail::DataMatrixWalk walk(size, {scratch.data(), mapping, bit_words(mapping.width)});
     walk([&](int codeword, int bit, int column, int row) {
-        const Point p = detail::data_matrix_place(size, column, row);
+        const Point p = places(column, row);
         if (modules(p.x, p.y))
             codewords[codeword] = static_cast<std::uint8_t>(codewords[codeword] | 1 << bit);
     });
@@ -189,14 +221,15 @@ inline Status data_matrix_modules(Span<const std::uint8_t> codewords, const Data
             if (data_matrix_border(size, x, y) == DataMatrixModule::dark) modules.set(x, y, true);
     }
     const Size mapping = size.mapping();
+    const detail::DataMatrixPlaces places(size);
     detail::DataMatrixWalk walk(size, {scratch.data(), mapping, bit_words(mapping.width)});
     walk([&](int codeword, int bit, int column, int row) {
-        const Point p = detail::data_matrix_place(size, column, row);
+        const Point p = places(column, row);
         modules.set(p.x, p.y, (codewords[codeword] >> bit & 1) != 0);
     });
     // The lower right corner that no codeword fills: annex F.4.
     if (!walk.taken(mapping.width - 1, mapping.height - 1)) {
-        const Point p = detail::data_matrix_place(size, mapping.width - 1, mapping.height - 1);
+        const Point p = places(mapping.width - 1, mapping.height - 1);
         modules.set(p.x, p.y, true);
         modules.set(p.x - 1, p.y - 1, true);
     }

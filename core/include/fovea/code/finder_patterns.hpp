@@ -4,6 +4,7 @@
 // 1:1:3:1:1. ISO/IEC 18004, 6.3.3.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 
@@ -80,7 +81,29 @@ struct CrossRuns {
     FiveRuns runs;
     int twice_centre = 0;
     bool complete = false;
+    bool goes_on = false;  ///< not complete, as the middle one is longer than most after the pixel
 };
+/// Goes on by steps while the pixels there have the wanted colour, and answers their count, limit at most.
+inline int run_along(const BitWord*& row, int& x, int across, std::ptrdiff_t down, BitWord wanted,
+                     int limit) {
+    int count = 0;
+    if (across == 0) {
+        const int place = x % bits_a_word;
+        const BitWord* words = row + x / bits_a_word;
+        std::ptrdiff_t next = down;
+        for (; count < limit && (words[next] >> place & 1) == wanted; ++count) next += down;
+        row += count * down;
+        return count;
+    }
+    for (; count < limit; ++count) {
+        const BitWord* next = row + down;
+        const auto place = static_cast<unsigned>(x + across);
+        if ((next[place / bits_a_word] >> place % bits_a_word & 1) != wanted) break;
+        row = next;
+        x += across;
+    }
+    return count;
+}
 inline CrossRuns cross_runs(const FinderImage& image, int x, int y, int dx, int dy, int most) {
     CrossRuns cross;
     int ends[2] = {};
@@ -91,21 +114,19 @@ inline CrossRuns cross_runs(const FinderImage& image, int x, int y, int dx, int 
         // Steps that stay in the image.
         const int across = sx == 0 ? max_image_side : sx > 0 ? image.bits.width() - 1 - x : x;
         const int along = sy == 0 ? max_image_side : sy > 0 ? image.bits.height() - 1 - y : y;
-        const int room = minimum(across, along);
+        int room = minimum(across, along);
+        const std::ptrdiff_t down = sy * image.bits.stride_words();
         const BitWord* row = image.bits.row(y);
         int px = x;
-        int step = 1;
         for (int part = 0; part < 3; ++part) {
             const BitWord wanted = part == 1 ? 1 - colour : colour;
-            int count = 0;
-            for (; step <= room && count <= most; ++step, ++count) {
-                const BitWord* next = row + sy * image.bits.stride_words();
-                if ((next[(px + sx) / bits_a_word] >> ((px + sx) % bits_a_word) & 1) != wanted) break;
-                row = next;
-                px += sx;
-            }
+            const int count = run_along(row, px, sx, down, wanted, minimum(room, most + 1));
+            room -= count;
             // The outer run may go on into a shadow.
-            if ((count > most && part < 2) || (part > 0 && count == 0)) return cross;
+            if ((count > most && part < 2) || (part > 0 && count == 0)) {
+                cross.goes_on = side == 1 && part == 0;
+                return cross;
+            }
             if (part == 0) ends[side] = count;
             cross.runs.run[side == 0 ? 2 - part : 2 + part] += count;
         }
@@ -125,6 +146,8 @@ public:
 
     /// Rows first, first + step and so on.
     void rows(int first, int step) {
+        step_ = step;
+        for (Rejected& rejected : rejected_) rejected = {};
         for (int y = first; y < bits_.height(); y += step) row(y);
     }
 
@@ -152,10 +175,10 @@ private:
     }
     /// The run that ends at the newest edge has the colour told, and so has the first of the five.
     void look(const int (&edge)[6], int y, bool dark) {
+        const int middle = edge[3] - edge[2];
+        if (middle <= edge[2] - edge[1] || middle <= edge[4] - edge[3]) return;
         FiveRuns runs;
         for (int i = 0; i < 5; ++i) runs.run[i] = edge[i + 1] - edge[i];
-        const int middle = runs.run[2];
-        if (middle <= runs.run[1] || middle <= runs.run[3]) return;
         runs.clip();
         if (!runs.fits(row_slack)) return;
         const int x = (edge[2] + edge[3] - 1) / 2;
@@ -166,17 +189,38 @@ private:
             ++known.lines;
             return;
         }
-        check({bits_, inverted}, x, y, runs.total());
+        const int across = runs.total();
+        if (known_not(x, y, across, dark)) return;
+        if (check({bits_, inverted}, x, y, across)) rejected_[x % kept_rejected] = {x, y, across, dark};
     }
-    void check(const FinderImage& image, int x, int y, int across) {
+    /// What was found not to be a pattern in a row before, of which the same pixels of the column would tell.
+    struct Rejected {
+        int x = -1;
+        int y = 0;
+        int across = 0;
+        bool dark = false;
+    };
+    /// Whether the middle run of the column goes on from a row where the same was rejected.
+    bool known_not(int x, int y, int across, bool dark) {
+        Rejected& known = rejected_[x % kept_rejected];
+        if (known.x != x || known.across != across || known.dark != dark || known.y != y - step_)
+            return false;
+        for (int between = known.y + 1; between < y; ++between)
+            if (bits_(x, between) != dark) return false;
+        known.y = y;
+        return true;
+    }
+    /// Adds the pattern that has its middle run there, or answers that there is none, which then holds for
+    /// all rows below in the same run of the column.
+    bool check(const FinderImage& image, int x, int y, int across) {
         const CrossRuns down = cross_runs(image, x, y, 0, 1, across);
-        if (!down.complete || !down.runs.fits(cross_slack)) return;
+        if (!down.complete || !down.runs.fits(cross_slack)) return !down.goes_on;
         const int height = down.runs.total();
-        if (height * 3 < across || across * 3 < height) return;
+        if (height * 3 < across || across * 3 < height) return true;
         const int centre_y = y + floor_divide(down.twice_centre + 1, 2);
-        if (!image.dark(x, centre_y)) return;
+        if (!image.dark(x, centre_y)) return true;
         const CrossRuns again = cross_runs(image, x, centre_y, 1, 0, across);
-        if (!again.complete || !again.runs.fits(cross_slack)) return;
+        if (!again.complete || !again.runs.fits(cross_slack)) return true;
         const int centre_x = x + floor_divide(again.twice_centre + 1, 2);
         int diagonals = 0;
         int steps = 0;
@@ -187,7 +231,7 @@ private:
             ++diagonals;
             steps += diagonal.runs.total();
         }
-        if (diagonals == 0) return;
+        if (diagonals == 0) return true;
         // Rows and columns cross a pattern that is turned by an eighth from corner to corner; then the
         // diagonals, whose steps are 1.414 px, tell its sides. In 1/256, 362 for that root.
         const int width = again.runs.total();
@@ -197,10 +241,11 @@ private:
         found.centre = {std::int64_t{2 * x + again.twice_centre} * 128,
                         std::int64_t{2 * y + down.twice_centre} * 128};
         found.rings = rings(image, found.centre, width * turned / 256, height * turned / 256);
-        if (found.rings < least_rings) return;
+        if (found.rings < least_rings) return true;
         found.module = (std::int64_t{width} + height) * turned / 14;
         found.inverted = image.inverted;
         add(found);
+        return false;
     }
     /// Whether a row that crosses a pattern there is likely to cross the known one.
     static bool close(const FinderPattern& known, PlanePoint centre, std::int64_t module, bool inverted) {
@@ -224,7 +269,8 @@ private:
         constexpr int sine[20] = {0,    98,   181,  237,  256,  237, 181, 98, 0,   -98,
                                   -181, -237, -256, -237, -181, -98, 0,   98, 181, 237};
         int right = 0;
-        for (int i = 0; i < 16; ++i) {
+        // Until they are too few even if all that follow are right.
+        for (int i = 0; i < 16 && right + most_finder_rings - (3 * i + 1) / 2 >= least_rings; ++i) {
             const PlanePoint way{sine[i + 4] * width, sine[i] * height};
             right += image.dark(centre + way * 23 / 70) ? 0 : 1;
             if (i % 2 == 0) right += image.dark(centre + way * 12 / 70) ? 1 : 0;
@@ -245,8 +291,12 @@ private:
     static constexpr int least_rings = 18;
     static constexpr int sure_rings = 22;
 
+    static constexpr int kept_rejected = 8;
+
     BitView<const BitWord> bits_;
     ListView<FinderPattern> patterns_;
+    int step_ = 1;
+    Rejected rejected_[kept_rejected];
 };
 
 }  // namespace fovea::detail

@@ -10,6 +10,7 @@
 #include <fovea/code/module_plane.hpp>
 #include <fovea/code/qr_matrix.hpp>
 #include <fovea/code/qr_tables.hpp>
+#include <fovea/code/work_budget.hpp>
 
 namespace fovea::detail {
 
@@ -131,11 +132,15 @@ public:
     }
     /// Moves the corner that has no finder while that makes the modules near it more even: the patterns
     /// hardly tell where it is.
-    void settle(int size, ModulePlane& plane) const {
+    ///
+    /// Time  at most 145 times even_work(size) units of work; it ends with the budget
+    void settle(int size, ModulePlane& plane, WorkBudget& budget) const {
         const PlanePoint modules[4] = {module_corner(0, 0), module_corner(size, 0), module_corner(size, size),
                                        module_corner(0, size)};
         PlanePoint places[4];
         for (int i = 0; i < 4; ++i) places[i] = plane(modules[i]);
+        const int work = even_work(size);
+        budget.spend(work);
         int best = evenness(plane, size);
         const std::int64_t module = maximum(length(frame_[0].u()), length(frame_[0].v()));
         for (std::int64_t step = module; step >= module / 4; step /= 2) {
@@ -145,6 +150,8 @@ public:
                 for (int i = 0; i < 8; ++i) {
                     constexpr int way[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
                                                {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+                    if (budget.spent()) return;
+                    budget.spend(work);
                     const PlanePoint before = places[2];
                     places[2] = before + PlanePoint{way[i][0] * step, way[i][1] * step};
                     const Result<ModulePlane> other = ModulePlane::through(modules, places);
@@ -220,12 +227,21 @@ public:
         return right * 1000 / all;
     }
 
+    /// Looks of begin(): 2 by 2 ways of 56 and 4 by 7 lines of 14 for each finder.
+    static constexpr int begin_work = 3 * (4 * 56 + 28 * 14);
+
 private:
+    static constexpr int even_stride(int size) { return size / 40 + 1; }
+    /// Looks of evenness(): at a half of its modules 2, at the others 4, across and down.
+    static constexpr int even_work(int size) {
+        const int side = (size - size / 2 + even_stride(size) - 1) / even_stride(size);
+        return 6 * side * side;
+    }
     static constexpr bool ring_dark(int x, int y) { return maximum(x < 0 ? -x : x, y < 0 ? -y : y) != 1; }
     /// How well modules that differ from the next one change half way to it, in the quarter opposite of the
     /// corner finder. Where nothing differs, as beside the symbol, nothing is gained.
     int evenness(const ModulePlane& plane, int size) const {
-        const int stride = size / 40 + 1;
+        const int stride = even_stride(size);
         int even = 0;
         for (int y = size / 2; y < size; y += stride) {
             for (int x = size / 2; x < size; x += stride) {

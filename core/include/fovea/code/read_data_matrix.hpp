@@ -51,8 +51,8 @@ inline constexpr int data_matrix_corners = 64;
 /// So many of them are tried. Of a thousand symbols that were read in cluttered photos one had another rank.
 inline constexpr int data_matrix_tries = 24;
 /// Steps along borders and looks between pixels, each a unit of work, for each pixel of an image: at every
-/// size in which it is seen, and for each polarity. Photos without
-/// symbols take most of it.
+/// size in which it is seen, and for each polarity; an eighth more for the corners that the row
+/// gives in which it ends. Photos without symbols take most of it.
 inline constexpr int data_matrix_work = 4;
 inline constexpr int data_matrix_quick_work = 1;
 
@@ -164,6 +164,8 @@ private:
         field_ = CodeField(image_, inverted);
         const bool quick = options_.effort == ReadDataMatrixOptions::Effort::quick;
         budget_ = WorkBudget(image_.size(), quick ? data_matrix_quick_work : data_matrix_work, least_work);
+        // An eighth more for what the row finds in which the work ends.
+        const std::int64_t more = budget_.left() / 8;
         passed_.clear();
         const int height = image_.height();
         const int step = clamp(height / 56, 3, 9);
@@ -171,17 +173,21 @@ private:
         for (int parts = 2; parts <= 8 && height / parts >= 2 * step; parts *= 2) {
             for (int i = 1; i < parts; i += 2) {
                 scan(height * i / parts);
+                const bool last = budget_.spent();
+                if (last) budget_.extend(more);
                 try_corners();
-                if (ended()) return;
+                if (last || ended()) return;
             }
         }
         int since = 0;
         for (int y = step / 2; y < height; y += step) {
             scan(y);
-            if (++since < 16 && y + step < height) continue;
+            const bool last = budget_.spent();
+            if (++since < 16 && y + step < height && !last) continue;
             since = 0;
+            if (last) budget_.extend(more);
             try_corners();
-            if (ended()) return;
+            if (last || ended()) return;
         }
     }
     /// A row without what lies in symbols that were read.
@@ -219,8 +225,8 @@ private:
     void try_corners() {
         const Span<BorderCorner> found = corners_.first(count_);
         for (BorderCorner& corner : found) {
-            const int thin = thin_places(field_, corner.in, corner.threshold) +
-                             thin_places(field_, corner.out, corner.threshold);
+            const int thin = thin_places(field_, corner.in, corner.threshold, budget_) +
+                             thin_places(field_, corner.out, corner.threshold, budget_);
             if (thin < fewest_thin) corner.weight = 0;
             if (thin < usual_thin) corner.weight /= 4;
         }

@@ -44,7 +44,7 @@ struct ReadQrOptions {
     int largest_version = max_qr_version;  ///< 1..40: larger symbols are not read; fewer need less scratch
 };
 
-/// Looks at modules for each pixel of an image, a unit of work each, at all thresholds together, and 1.5
+/// Looks at modules for each pixel of an image, a unit of work each, at all thresholds together, and 2
 /// million for a small one. Photos of 640x480 take 2 at most.
 inline constexpr int qr_work = 12;
 
@@ -161,8 +161,8 @@ private:
         if (!binarize(threshold)) return false;
         int pattern_count = 0;
         const ListView<FinderPattern> patterns(pattern_room_.data(), max_finder_patterns, &pattern_count);
-        FinderSearch search(bits_, patterns);
-        search.rows(image.height() > tall ? 1 : 0, image.height() > tall ? 2 : 1);
+        // Gone before triples are tried, which need the stack.
+        FinderSearch(bits_, patterns).rows(image.height() > tall ? 1 : 0, image.height() > tall ? 2 : 1);
         FinderTriples triples(patterns);
         for (int i = 0; i < triples.size() && status_ == Status::ok && !enough() && !budget_.spent(); ++i) {
             if (triples.usable(i) && try_triple(triples.corner(i), triples.right(i), triples.below(i)))
@@ -220,6 +220,7 @@ private:
     bool try_triple(const FinderPattern& corner, const FinderPattern& right, const FinderPattern& below) {
         const FinderImage image{bits_, corner.inverted};
         QrLocator locator(image);
+        budget_.spend(QrLocator::begin_work);
         if (!locator.begin(corner, right, below)) return false;
         for (int i = 0; i < locator.sizes() && !budget_.spent(); ++i) {
             const int size = locator.size(i);
@@ -238,8 +239,7 @@ private:
             if (try_plane(locator, image, size, plane, true)) return true;
             if (fit < settled_fit) continue;
             if (budget_.spent()) return false;
-            budget_.spend(settle_work * (fit_work(size) + 256));
-            locator.settle(size, plane);
+            locator.settle(size, plane, budget_);
             if (try_plane(locator, image, size, plane, true)) return true;
         }
         return false;
@@ -301,11 +301,10 @@ private:
     /// Looks of QrLocator::fit().
     static constexpr int fit_work(int size) { return 172 + 2 * size; }
 
-    static constexpr int least_work = 3 << 19;
+    static constexpr int least_work = 1 << 21;
     static constexpr int plane_work =
         8192;  ///< of QrLocator::find_planes(), most of it for the alignment pattern
-    static constexpr int refine_work = 80;   ///< times that QrLocator::refine() fits
-    static constexpr int settle_work = 144;  ///< times that QrLocator::settle() looks at modules
+    static constexpr int refine_work = 80;  ///< times that QrLocator::refine() fits
     static constexpr int tiny_side = 64;
     static constexpr int tall = 120;  ///< px, from which on every other row is looked at
     static constexpr int finest_block = 8;

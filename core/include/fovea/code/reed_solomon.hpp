@@ -3,6 +3,7 @@
 // Reed-Solomon: the error correction of matrix codes, over bytes as the field GF(256).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <fovea/base/assert.hpp>
@@ -128,15 +129,9 @@ class BlockRepair {
 public:
     constexpr BlockRepair(Span<const std::uint8_t> block, int parity)
         : length_(static_cast<int>(block.size())), parity_(parity) {
-        for (int j = 0; j < parity; ++j) {
-            const std::uint8_t root = Field::power(j + FirstRoot);
-            std::uint8_t sum = 0;
-            for (const std::uint8_t codeword : block) {
-                sum = static_cast<std::uint8_t>(Field::multiply(sum, root) ^ codeword);
-            }
-            syndromes_[j] = sum;
-            clean_ = clean_ && sum == 0;
-        }
+        int j = 0;
+        for (; j + together <= parity; j += together) find_syndromes<together>(block, j);
+        for (; j < parity; ++j) find_syndromes<1>(block, j);
     }
 
     constexpr bool clean() const { return clean_; }
@@ -154,6 +149,23 @@ public:
     }
 
 private:
+    /// Each step of a syndrome waits for two looks into tables; those of other syndromes fill the time.
+    static constexpr int together = 4;
+
+    template <int Count>
+    constexpr void find_syndromes(Span<const std::uint8_t> block, int first) {
+        std::uint8_t roots[static_cast<std::size_t>(Count)] = {};
+        std::uint8_t sums[static_cast<std::size_t>(Count)] = {};
+        for (int k = 0; k < Count; ++k) roots[k] = Field::power(first + k + FirstRoot);
+        for (const std::uint8_t codeword : block) {
+            for (int k = 0; k < Count; ++k)
+                sums[k] = static_cast<std::uint8_t>(Field::multiply(sums[k], roots[k]) ^ codeword);
+        }
+        for (int k = 0; k < Count; ++k) {
+            syndromes_[first + k] = sums[k];
+            clean_ = clean_ && sums[k] == 0;
+        }
+    }
     constexpr void find_locator(Span<const std::uint8_t> erasures) {
         const int erased = static_cast<int>(erasures.size());
         locator_.terms[0] = 1;

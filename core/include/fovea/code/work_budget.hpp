@@ -21,6 +21,8 @@ public:
         : left_(size.area() * a_pixel > least ? size.area() * a_pixel : std::int64_t{least}) {}
 
     constexpr void spend(std::int64_t units) { left_ -= units; }
+    /// So many units more, for what was begun and must come to an end.
+    constexpr void extend(std::int64_t units) { left_ += units; }
     constexpr bool spent() const { return left_ <= 0; }
     constexpr std::int64_t left() const { return left_; }
 
