@@ -81,16 +81,19 @@ public:
         int share = 0;
         int sharpness = 0;
         int turns = 0;
+        std::int32_t contrast = find_bar_ranges(plain, ranges_);
         for (int i = 0; i < bar_sight_counts[level]; ++i) {
             const BarSight sight = bar_sights[i];
             if (sight.sharpness != sharpness) {
                 profile = sharp.first(line.samples);
                 sharpen_bar_profile(plain, sight.sharpness, profile);
+                contrast = find_bar_ranges(profile, ranges_);
                 share = 0;
             }
             sharpness = sight.sharpness;
             budget_.spend(line.samples);
-            if (sight.share != share) turns = find_bar_turns(profile, sight.share, ranges_, turns_);
+            if (sight.share != share)
+                turns = find_turns_in_ranges(profile, sight.share, ranges_, contrast, turns_);
             share = sight.share;
             if (turns < fewest_bar_edges) continue;
             int count = find_bar_edges(profile, turns_.first(turns), sight.rule, edges_);
