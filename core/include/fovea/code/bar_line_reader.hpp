@@ -73,8 +73,9 @@ public:
                 turns_.size() * static_cast<std::ptrdiff_t>(sizeof(BarTurn))};
     }
 
-    /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only.
-    void read(const BarLine& line, int level, Span<std::int16_t> sharp) {
+    /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only. The sights
+    /// before first_sight are left out: nothing was seen with them before.
+    void read(const BarLine& line, int level, Span<std::int16_t> sharp, int first_sight = 0) {
         if (line.samples < fewest_bar_edges || spent()) return;
         const Span<std::int16_t> plain = profile(line.samples);
         Span<std::int16_t> profile = plain;
@@ -82,7 +83,7 @@ public:
         int sharpness = 0;
         int turns = 0;
         std::int32_t contrast = find_bar_ranges(plain, ranges_);
-        for (int i = 0; i < bar_sight_counts[level]; ++i) {
+        for (int i = first_sight; i < bar_sight_counts[level]; ++i) {
             const BarSight sight = bar_sights[i];
             if (sight.sharpness != sharpness) {
                 profile = sharp.first(line.samples);

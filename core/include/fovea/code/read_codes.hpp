@@ -56,8 +56,10 @@ inline Status read_codes(ImageView<const Gray8> src, const ReadCodesOptions& opt
 namespace detail {
 
 /// One look at an image for everything that is asked for.
+/// bars_seen: an earlier look read no bars on any line.
 inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions& options, bool thorough,
-                             Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes) {
+                             bool bars_seen, Span<std::uint8_t> scratch, CodeText& text,
+                             ListView<Code> codes) {
     const int before = codes.size();
     const auto left = [&] { return options.most_codes - (codes.size() - before); };
     const auto failed = [](Status status) {
@@ -77,7 +79,7 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
         rules.rules.symbologies = bars;
         rules.most_codes = left();
         rules.effort = thorough ? 2 : 1;
-        doubt = read_bars(src, rules, scratch, text, codes);
+        doubt = read_bars(src, rules, bars_seen, scratch, text, codes);
         if (failed(doubt)) return doubt;
     }
     if (options.symbologies.contains(Symbology::data_matrix) && left() > 0) {
@@ -100,9 +102,9 @@ inline Status read_codes(ImageView<const Gray8> src, const ReadCodesOptions& opt
     if (src.empty()) return Status::empty_image;
     if (options.symbologies.empty() || options.most_codes < 1) return Status::bad_argument;
     if (scratch.size() < read_codes_scratch(src.size())) return Status::scratch_too_small;
-    const Status first = detail::look_for_codes(src, options, false, scratch, text, codes);
+    const Status first = detail::look_for_codes(src, options, false, false, scratch, text, codes);
     if (!options.thorough || (first != Status::not_found && first != Status::undecided)) return first;
-    return detail::look_for_codes(src, options, true, scratch, text, codes);
+    return detail::look_for_codes(src, options, true, first == Status::not_found, scratch, text, codes);
 }
 
 }  // namespace fovea
