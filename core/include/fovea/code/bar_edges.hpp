@@ -205,11 +205,12 @@ inline int find_turns_in_ranges(BarProfile profile, int share, Span<const std::i
         const int end = minimum(length, (block + 1) * detail::bar_block);
         for (int at = block * detail::bar_block; at < end; ++at) {
             const std::int32_t level = profile[at];
-            if (level > high) {
+            // Before the first turn it is not known which of both it will be.
+            if (heading >= 0 && level > high) {
                 high = level;
                 high_at = at;
             }
-            if (level < low) {
+            if (heading <= 0 && level < low) {
                 low = level;
                 low_at = at;
             }
@@ -218,15 +219,11 @@ inline int find_turns_in_ranges(BarProfile profile, int share, Span<const std::i
                 heading = -1;
                 low = level;
                 low_at = at;
-                high = level;
-                high_at = at;
             } else if (heading <= 0 && level - low >= step) {
                 turns[count++] = {low_at, low};
                 heading = 1;
                 high = level;
                 high_at = at;
-                low = level;
-                low_at = at;
             }
         }
     }

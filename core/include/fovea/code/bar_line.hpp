@@ -110,18 +110,33 @@ inline void sample_on_grid(ImageView<const Gray8> src, Point from, bool is_row, 
         profile[i] = static_cast<std::int16_t>((profile[i] * 16 * reciprocal + 32768) >> 16);
 }
 
-/// Brightness between four pixels, in 1/16 grey level; x and y are 1/65536 px inside the image.
-inline std::int32_t sample_between(ImageView<const Gray8> src, std::int32_t x, std::int32_t y) {
-    const int left = x >> 16;
-    const int top = y >> 16;
+/// Brightness between the pixels at, right of, below and below right of a place, in 1/16 grey level. Of x and y the
+/// lower 16 bits count, in 1/65536 px.
+constexpr std::int32_t brightness_between(const Gray8* upper, const Gray8* lower, int left, int right,
+                                          std::int32_t x, std::int32_t y) {
     const std::int32_t right_share = x >> 8 & 255;
-    const std::int32_t bottom_share = y >> 8 & 255;
-    const Gray8* upper = src.row(top);
-    const Gray8* lower = src.row(minimum(top + 1, src.height() - 1));
-    const int right = minimum(left + 1, src.width() - 1);
-    const std::int32_t a = upper[left] * (256 - right_share) + upper[right] * right_share;
-    const std::int32_t b = lower[left] * (256 - right_share) + lower[right] * right_share;
-    return (a * (256 - bottom_share) + b * bottom_share) >> 12;
+    const std::int32_t a = upper[left] * 256 + (upper[right] - upper[left]) * right_share;
+    const std::int32_t b = lower[left] * 256 + (lower[right] - lower[left]) * right_share;
+    return (a * 256 + (b - a) * (y >> 8 & 255)) >> 12;
+}
+
+/// At a place in 1/65536 px; beyond the image is what its border shows.
+inline std::int32_t brightness_at(ImageView<const Gray8> src, std::int64_t x, std::int64_t y) {
+    const int last_x = src.width() - 1;
+    const int last_y = src.height() - 1;
+    const auto in_x = static_cast<std::int32_t>(clamp<std::int64_t>(x, 0, std::int64_t{last_x} * 65536));
+    const auto in_y = static_cast<std::int32_t>(clamp<std::int64_t>(y, 0, std::int64_t{last_y} * 65536));
+    const int left = in_x >> 16;
+    const int top = in_y >> 16;
+    return brightness_between(src.row(top), src.row(minimum(top + 1, last_y)), left,
+                              minimum(left + 1, last_x), in_x, in_y);
+}
+/// The same where the right and the lower neighbour are in the image.
+inline std::int32_t brightness_inside(ImageView<const Gray8> src, std::int64_t x, std::int64_t y) {
+    const auto left = static_cast<int>(x >> 16);
+    const auto top = static_cast<int>(y >> 16);
+    return brightness_between(src.row(top), src.row(top + 1), left, left + 1, static_cast<std::int32_t>(x),
+                              static_cast<std::int32_t>(y));
 }
 
 }  // namespace detail
@@ -146,35 +161,35 @@ inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int
         detail::sample_on_grid(src, from, is_row, line.samples, breadth, profile);
         return;
     }
-    const std::int64_t last_x = (std::int64_t{src.width()} - 1) * 65536;
-    const std::int64_t last_y = (std::int64_t{src.height()} - 1) * 65536;
-    const std::int32_t reciprocal = 65536 / breadth;
-    // Of most lines all samples lie in the image, as their ends do; only then no place needs to be limited.
-    const auto is_inside = [&](std::int64_t i, std::int64_t k) {
-        const std::int64_t x = from_x + step_x * i - step_y * k;
-        const std::int64_t y = from_y + step_y * i + step_x * k;
-        return x >= 0 && x <= last_x && y >= 0 && y <= last_y;
-    };
+    // Of most lines all samples lie in the image, as those at their ends do.
     const int half = breadth / 2;
+    const auto is_inside = [&](std::int64_t i, std::int64_t k) {
+        const std::int64_t x = (from_x + step_x * i - step_y * k) >> 16;
+        const std::int64_t y = (from_y + step_y * i + step_x * k) >> 16;
+        return x >= 0 && x + 1 < src.width() && y >= 0 && y + 1 < src.height();
+    };
     const int end = line.samples - 1;
     const bool inside =
         is_inside(0, -half) && is_inside(0, half) && is_inside(end, -half) && is_inside(end, half);
-    std::int64_t x0 = std::int64_t{from_x} + std::int64_t{step_y} * half;
-    std::int64_t y0 = std::int64_t{from_y} - std::int64_t{step_x} * half;
-    for (int i = 0; i < line.samples; ++i, x0 += step_x, y0 += step_y) {
-        std::int32_t sum = 0;
-        // Across the line: the step turned by a quarter.
-        std::int64_t x = x0;
-        std::int64_t y = y0;
-        for (int k = 0; k <= 2 * half; ++k, x -= step_y, y += step_x) {
-            sum +=
-                inside
-                    ? detail::sample_between(src, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y))
-                    : detail::sample_between(src,
-                                             static_cast<std::int32_t>(clamp<std::int64_t>(x, 0, last_x)),
-                                             static_cast<std::int32_t>(clamp<std::int64_t>(y, 0, last_y)));
+    const std::int32_t reciprocal = 65536 / breadth;
+    const auto sample = [&](auto brightness) {
+        for (int i = 0; i < line.samples; ++i) {
+            // Across the line: the step turned by a quarter.
+            std::int64_t x = from_x + std::int64_t{step_x} * i + std::int64_t{step_y} * half;
+            std::int64_t y = from_y + std::int64_t{step_y} * i - std::int64_t{step_x} * half;
+            std::int32_t sum = 0;
+            for (int k = -half; k <= half; ++k, x -= step_y, y += step_x) sum += brightness(src, x, y);
+            profile[i] = static_cast<std::int16_t>((std::int64_t{sum} * reciprocal + 32768) >> 16);
         }
-        profile[i] = static_cast<std::int16_t>((std::int64_t{sum} * reciprocal + 32768) >> 16);
+    };
+    if (inside) {
+        sample([](ImageView<const Gray8> image, std::int64_t x, std::int64_t y) {
+            return detail::brightness_inside(image, x, y);
+        });
+    } else {
+        sample([](ImageView<const Gray8> image, std::int64_t x, std::int64_t y) {
+            return detail::brightness_at(image, x, y);
+        });
     }
 }
 
