@@ -110,16 +110,16 @@ struct BlurLightTable {
     int samples = 0;  ///< of its plan; 0: not made
     LightAt at[most_blur_samples];
     std::uint64_t
-        reciprocal[most_blur_samples];  ///< of dark, 2^reciprocal_bits * full_darkness / dark, upwards
+        reciprocal[most_blur_samples];  ///< of dark, 2^light_reciprocal_bits * full_darkness / dark, upwards
 };
 /// Enough for an exact quotient: with n <= 2 * dark below 2^20, 2^40 is above n times what the reciprocal is too
 /// much, which is below dark.
-inline constexpr int reciprocal_bits = 40;
+inline constexpr int light_reciprocal_bits = 40;
 
 inline void make_light_table(const BlurPlan& plan, const BlurLight& light, BlurLightTable& table) {
     table.light = light;
     table.samples = plan.samples();
-    constexpr std::uint64_t one = std::uint64_t{full_darkness} << reciprocal_bits;
+    constexpr std::uint64_t one = std::uint64_t{full_darkness} << light_reciprocal_bits;
     for (int j = 0; j < plan.samples(); ++j) {
         table.at[j] = light_at(plan, light, j);
         const auto dark = static_cast<std::uint64_t>(table.at[j].dark);
@@ -137,7 +137,7 @@ inline void darkness_of(const BlurPlan& plan, const std::int32_t* levels, const 
         // Within what full_darkness times it over dark is from -full_darkness to 2 * full_darkness.
         const std::int32_t off = clamp<std::int32_t>(at.white - levels[j], -at.dark, 2 * at.dark);
         const auto size = static_cast<std::uint64_t>(off < 0 ? -off : off);
-        const auto quotient = static_cast<std::int32_t>(size * table.reciprocal[j] >> reciprocal_bits);
+        const auto quotient = static_cast<std::int32_t>(size * table.reciprocal[j] >> light_reciprocal_bits);
         darkness[j] = off < 0 ? -quotient : quotient;
     }
 }

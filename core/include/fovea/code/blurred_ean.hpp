@@ -28,7 +28,7 @@ struct ProfileSpan {
     int right = 0;  ///< the first one of the right margin
 };
 
-/// What is needed to read one profile: about 22 KB.
+/// What is needed to read one profile: about 24 KB.
 struct BlurredEanScratch {
     detail::BlurLetters letters;
     detail::LetterCosts costs;

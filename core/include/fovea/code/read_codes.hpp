@@ -82,15 +82,16 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
         doubt = read_bars(src, rules, bars_seen, scratch, text, codes);
         if (failed(doubt)) return doubt;
     }
+    // Before what is dearest: no blurred bars were found in a photo of anything else.
+    if (thorough && !bars.empty() && codes.size() == before) {
+        if (Status s = read_blurred_bars(src, bars, left(), scratch, text, codes); failed(s)) return s;
+    }
     if (options.symbologies.contains(Symbology::data_matrix) && left() > 0) {
         using Effort = ReadDataMatrixOptions::Effort;
         ReadDataMatrixOptions data_matrix;
         data_matrix.effort = thorough ? Effort::thorough : Effort::quick;
         data_matrix.most_codes = left();
         if (Status s = read_data_matrix(src, data_matrix, scratch, text, codes); failed(s)) return s;
-    }
-    if (thorough && !bars.empty() && codes.size() == before) {
-        if (Status s = read_blurred_bars(src, bars, left(), scratch, text, codes); failed(s)) return s;
     }
     return codes.size() > before ? Status::ok : doubt;
 }
