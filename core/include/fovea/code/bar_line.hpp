@@ -110,8 +110,8 @@ inline void sample_on_grid(ImageView<const Gray8> src, Point from, bool is_row, 
         profile[i] = static_cast<std::int16_t>((profile[i] * 16 * reciprocal + 32768) >> 16);
 }
 
-/// Brightness between the pixels at, right of, below and below right of a place, in 1/16 grey level. Of x and y the
-/// lower 16 bits count, in 1/65536 px.
+/// Brightness between the pixels at, right of, below and below right of a place, in 1/16 grey level. Of x and
+/// y the lower 16 bits count, in 1/65536 px.
 constexpr std::int32_t brightness_between(const Gray8* upper, const Gray8* lower, int left, int right,
                                           std::int32_t x, std::int32_t y) {
     const std::int32_t right_share = x >> 8 & 255;

@@ -36,8 +36,8 @@ inline void cost_letters(const BlurPlan& plan, const BlurLetters& letters, const
     for (int i = 0; i < module_response_size; ++i)
         module[i] = static_cast<std::int16_t>(letters.module.at[i]);
     for (int place = 0; place < plan.letters; ++place) {
-        // A letter is the sum of its modules, so that zT is one over its dark modules: of those before its end
-        // less those before its beginning, for each of two bars.
+        // A letter is the sum of its modules, so that zT is one over its dark modules: of those before the end
+        // less those before the beginning, for each of two bars.
         std::int32_t before[8] = {};
         for (int k = 0; k < 7; ++k) {
             const std::int16_t* at = seen + blur_samples * (plan.first(place) + k);
@@ -297,8 +297,8 @@ inline CheapestDigits cheapest_digits(const BlurPlan& plan, const BlurLetters& l
                                       const LetterCosts& costs, DigitPaths& paths) {
     DigitSearch search(plan, letters, costs, paths);
     const int first_digits = plan.has_parity ? 10 : 1;
-    // The likeliest first digit comes first: of the others those are left out that are surely worse than the next
-    // best.
+    // The likeliest first digit comes first: of the others those are left out that are surely worse than the
+    // next best.
     std::int32_t best[10];
     std::int32_t least[10];
     for (int first = 0; first < first_digits; ++first) {

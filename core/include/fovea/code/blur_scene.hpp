@@ -55,8 +55,8 @@ constexpr Ratio blur_in_modules(const BlurPlan& plan, const BlurScene& scene) {
         static_cast<std::int32_t>(clamp<std::int64_t>(modules, Ratio::one * 3 / 10, Ratio::one * 7 / 2)));
 }
 
-/// Where the samples of a plan lie between the ends of its bars, and how far perspective moves them there; both
-/// Ratio.
+/// Where the samples of a plan lie between the ends of its bars, and how far perspective moves them there;
+/// both Ratio.
 struct BlurPlaces {
     std::int32_t share[most_blur_samples];
     std::int32_t bend[most_blur_samples];
@@ -112,8 +112,8 @@ struct BlurLightTable {
     std::uint64_t
         reciprocal[most_blur_samples];  ///< of dark, 2^light_reciprocal_bits * full_darkness / dark, upwards
 };
-/// Enough for an exact quotient: with n <= 2 * dark below 2^20, 2^40 is above n times what the reciprocal is too
-/// much, which is below dark.
+/// Enough for an exact quotient: with n <= 2 * dark below 2^20, 2^40 is above n times what the reciprocal is
+/// too much, which is below dark.
 inline constexpr int light_reciprocal_bits = 40;
 
 inline void make_light_table(const BlurPlan& plan, const BlurLight& light, BlurLightTable& table) {

@@ -31,8 +31,8 @@ struct ReadBarsOptions {
 };
 
 /// Work for each pixel of an image's width and height: samples of lines, a unit each, and edges, eight each,
-/// once for every way to see them. Photos without a code take 3000, and 13000 at most; those that are read from
-/// take 9300 at most.
+/// once for every way to see them. Photos without a code take 3000, and would take 13000 at most; those that
+/// are read take 9300 at most.
 inline constexpr int bar_work = 10240;
 
 /// Scratch bytes that read_bars() needs.
@@ -150,11 +150,12 @@ private:
         return level == 2 && reader_.candidates().empty() ? bar_sight_counts[1] : 0;
     }
 
-    /// Where one code is looked for and was not told: what some lines read and others did not confirm is asked for
-    /// with all means, and so are some lines in the middle of the weightiest field. Of 18 photos that level 1
-    /// read nothing from and level 2 did, this reads 13. Where more codes are looked for the whole search
-    /// follows in any case, and says better how high they are.
+    /// Where one code is looked for. With more the whole search follows in any case, and says better how high
+    /// they are.
     bool looks_twice() const { return options_.most_codes == 1; }
+    /// What some lines read and others did not confirm is asked for with all means, and so are some lines in
+    /// the middle of the weightiest field. Of 18 photos that level 1 reads nothing from and level 2 does, this
+    /// reads 13.
     void look_twice() {
         const auto count = static_cast<int>(reader_.candidates().size());
         for (int which = 0; which < count && !done(); ++which) {

@@ -39,7 +39,7 @@ constexpr std::int64_t read_codes_scratch(Size size) {
 }
 
 /// Reads the codes of an image: first what is found fastest, QR, then bars, then Data Matrix; if there are
-/// none, again with all means.
+/// none, again with all means, and bars out of focus before Data Matrix.
 ///
 /// Shapes   src 1x1 or larger
 /// Time     bounded, as read_qr(), read_data_matrix() and read_bars() are
