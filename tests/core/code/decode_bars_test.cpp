@@ -109,8 +109,8 @@ TEST(DecodeBars, TheFirstLookLeavesOutNothingThatADecoderReads) {
     Random random(31);
     int read = 0;
     for (int trial = 0; trial < 4000; ++trial) {
-        // A code whose runs and quiet zone are some wider or narrower, so that decoders are near their limits.
-        const BarSample& sample = bar_samples[trial % std::size(bar_samples)];
+        // Runs and quiet zone are some wider or narrower, so that decoders are near their limits.
+        const BarSample& sample = bar_samples[static_cast<std::size_t>(trial) % std::size(bar_samples)];
         std::vector<std::int32_t> edges = edges_of(bars_of(sample.symbology, sample.text), 600);
         const std::int32_t quiet = random.between(1, 12) * 400;
         const int jitter = random.between(0, 120);

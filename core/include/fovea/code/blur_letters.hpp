@@ -161,8 +161,8 @@ inline ModuleOverlaps module_overlaps(const ModuleResponse& module) {
     return overlaps;
 }
 
-/// T T' of a letter and any that begins so many modules behind it: what is common with the modules before each
-/// one of its own, in sum.
+/// T T' of a letter and any that begins so many modules behind it: before each module of that one, what is
+/// common with those before it, in sum.
 struct CommonDarkness {
     std::int32_t before[8];
 

@@ -36,8 +36,8 @@ inline void cost_letters(const BlurPlan& plan, const BlurLetters& letters, const
     for (int i = 0; i < module_response_size; ++i)
         module[i] = static_cast<std::int16_t>(letters.module.at[i]);
     for (int place = 0; place < plan.letters; ++place) {
-        // A letter is the sum of its modules, so that zT is one over its dark modules: of those before the end
-        // less those before the beginning, for each of two bars.
+        // A letter is the sum of its modules, so that zT is one over its dark modules: for each of two bars
+        // that of all before its end less that of all before its beginning.
         std::int32_t before[8] = {};
         for (int k = 0; k < 7; ++k) {
             const std::int16_t* at = seen + blur_samples * (plan.first(place) + k);

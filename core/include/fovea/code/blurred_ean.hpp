@@ -178,8 +178,8 @@ private:
         return static_cast<std::int32_t>(std::int64_t{dark} * edge / full_darkness);
     }
 
-    /// The cheapest letters of a scene, for the blur that the letters were made for. A cost above the limit may
-    /// be told too low, but not below it.
+    /// The cheapest letters of a scene, for the blur that the letters were made for. A cost above the limit
+    /// may be told too low, but not below it.
     void evaluate(BlurTrial& trial, std::int32_t limit) {
         ++work_;
         sample_profile(plan_, profile_, trial.scene, scratch_.levels);
@@ -193,7 +193,7 @@ private:
     /// Exactly, whatever it costs.
     void evaluate(BlurTrial& trial) { evaluate(trial, std::numeric_limits<std::int32_t>::max()); }
 
-    /// Scenes of one profile are seen in few lights: one, turned where it is read backwards, and a fitted one.
+    /// Scenes of one profile are seen in few lights: one, the same from behind, and a fitted one.
     const BlurLightTable& light_table(const BlurLight& light) {
         for (const BlurLightTable& table : scratch_.lights) {
             if (table.samples != 0 && table.light == light) return table;

@@ -153,9 +153,9 @@ private:
     /// Where one code is looked for. With more the whole search follows in any case, and says better how high
     /// they are.
     bool looks_twice() const { return options_.most_codes == 1; }
-    /// What some lines read and others did not confirm is asked for with all means, and so are some lines in
-    /// the middle of the weightiest field. Of 18 photos that level 1 reads nothing from and level 2 does, this
-    /// reads 13.
+    /// What some lines read and others did not confirm is asked for with all means, and so are some lines
+    /// in the middle of the weightiest field. Of 18 photos that level 1 reads nothing from and level 2
+    /// does, this reads 13.
     void look_twice() {
         const auto count = static_cast<int>(reader_.candidates().size());
         for (int which = 0; which < count && !done(); ++which) {
