@@ -73,8 +73,8 @@ public:
                 turns_.size() * static_cast<std::ptrdiff_t>(sizeof(BarTurn))};
     }
 
-    /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only. The sights
-    /// before first_sight are left out: nothing was seen with them before.
+    /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only. The
+    /// sights before first_sight are left out: nothing was seen with them before.
     void read(const BarLine& line, int level, Span<std::int16_t> sharp, int first_sight = 0) {
         if (line.samples < fewest_bar_edges || spent()) return;
         const Span<std::int16_t> plain = profile(line.samples);
