@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
+#include <fovea/base/random.hpp>
 #include <fovea/code/bar_edges.hpp>
 #include <support/bars.hpp>
 
@@ -124,6 +126,30 @@ TEST(BarEdges, AnyProfileGivesRisingEdges) {
         for (const BarEdgeRule rule : rules) {
             const std::vector<std::int32_t> edges = edges_of(profile, rule);
             for (std::size_t i = 2; i < edges.size(); ++i) EXPECT_GT(edges[i], edges[i - 1]);
+        }
+    }
+}
+
+TEST(BarEdges, TheMiddleLevelIsThatOfTheHighestAndTheLowestTurnNear) {
+    Random random(19);
+    for (int trial = 0; trial < 300; ++trial) {
+        std::vector<BarTurn> turns(static_cast<std::size_t>(random.between(2, 14)));
+        std::int32_t level = 2000;
+        for (std::size_t i = 0; i < turns.size(); ++i) {
+            level += (i % 2 == static_cast<std::size_t>(trial % 2) ? 1 : -1) * random.between(64, 1900);
+            turns[i] = {static_cast<std::int32_t>(3 * i), level};
+        }
+        const auto count = static_cast<int>(turns.size());
+        for (int i = 0; i + 1 < count; ++i) {
+            std::int32_t least = turns[static_cast<std::size_t>(i)].level;
+            std::int32_t most = least;
+            for (int near = std::max(i - 4, 0); near <= std::min(i + 5, count - 1); ++near) {
+                least = std::min(least, turns[static_cast<std::size_t>(near)].level);
+                most = std::max(most, turns[static_cast<std::size_t>(near)].level);
+            }
+            EXPECT_EQ(detail::middle_level({turns.data(), static_cast<std::ptrdiff_t>(turns.size())}, i),
+                      (least + most) / 2)
+                << trial << ' ' << i;
         }
     }
 }

@@ -82,20 +82,56 @@ TEST(ModuleResponse, IsAModuleOfDarknessHoweverItIsSpread) {
     }
 }
 
+/// Twice what two letters have in common that lie so many modules apart, sample by sample.
+std::int32_t twice_common(const ModuleResponse& module, int left, int right, int apart) {
+    std::int32_t seen[2][letter_response_size + 24] = {};
+    for (int which = 0; which < 2; ++which) {
+        const unsigned modules = letter_modules(which == 0 ? left : right);
+        for (int k = 0; k < 7; ++k) {
+            const int at = blur_samples * (k + which * apart);
+            if ((modules >> (6 - k) & 1) == 0) continue;
+            for (int i = 0; i < module_response_size; ++i) seen[which][at + i] += module.at[i];
+        }
+    }
+    std::int32_t sum = 0;
+    for (int j = 0; j < letter_response_size + 24; ++j) sum += seen[0][j] * seen[1][j];
+    return 2 * sum;
+}
+
 TEST(SeeLetters, SquaresOfARowComeApartIntoLettersAndPairs) {
     static BlurLetters letters;
-    see_letters(Ratio::from_ratio(27, 10), letters);
-    const int row[3] = {4, 17, 8};
-    std::int64_t whole = 0;
-    std::int32_t sum[3 * 14 + 2 * blur_reach] = {};
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < letter_response_size; ++j) sum[14 * i + j] += letters.response[row[i]][j];
+    for (const int tenths : {3, 6, 15, 27, 35}) {
+        see_letters(Ratio::from_ratio(tenths, 10), letters);
+        std::int32_t most = 0;
+        for (int left = 0; left < letter_count; ++left) {
+            EXPECT_EQ(2 * letters.energy[left], twice_common(letters.module, left, left, 0)) << left;
+            for (int right = left < first_c ? 0 : first_c; right < (left < first_c ? first_c : letter_count);
+                 ++right) {
+                EXPECT_EQ(letters.beside[left][right], twice_common(letters.module, left, right, 7))
+                    << left << ' ' << right;
+                most = maximum(most, letters.beside[left][right]);
+            }
+            for (int right = 0; left < first_c && right < 10; ++right) {
+                EXPECT_EQ(letters.across[left][right],
+                          twice_common(letters.module, left, first_c + right, 12))
+                    << left << ' ' << right;
+                most = maximum(most, letters.across[left][right]);
+            }
+        }
+        EXPECT_EQ(letters.most_beside, most) << tenths;
     }
-    for (const std::int32_t at : sum) whole += std::int64_t{at} * at;
-    std::int64_t parts = 0;
-    for (const int letter : row) parts += letters.energy[letter];
-    parts += letters.beside[row[0]][row[1]] + letters.beside[row[1]][row[2]];
-    EXPECT_EQ(parts, whole);
+}
+
+TEST(LetterBars, AreTheDarkModules) {
+    for (int letter = 0; letter < letter_count; ++letter) {
+        const LetterBars bars = letter_bars[letter];
+        unsigned modules = 0;
+        for (int k = 0; k < 7; ++k) {
+            const bool dark = (k >= bars.at[0] && k < bars.at[1]) || (k >= bars.at[2] && k < bars.at[3]);
+            modules = modules << 1 | (dark ? 1U : 0U);
+        }
+        EXPECT_EQ(modules, letter_modules(letter)) << letter;
+    }
 }
 
 }  // namespace

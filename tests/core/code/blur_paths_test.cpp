@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -114,6 +115,66 @@ TEST(CheapestLetters, NeverCostMoreThanTheCheapestDigits) {
         int sum = found.digits[0];
         for (int k = 0; k < 12; ++k) sum += found.digits[k + 1] * (k % 2 == 0 ? 3 : 1);
         EXPECT_EQ(sum % 10, 0);
+    }
+}
+
+/// Darkness of no letters at all, as much of it as the most that is seen.
+void look_at_noise(const BlurPlan& plan, Ratio blur, std::int32_t most, std::mt19937& random) {
+    see_letters(blur, seen().letters);
+    std::uniform_int_distribution<std::int32_t> at(-most, most);
+    for (std::int32_t& darkness : seen().darkness) darkness = at(random);
+    cost_letters(plan, seen().letters, seen().darkness, seen().costs);
+}
+
+TEST(CheapestLetters, AreTheCheapestOfAllRowsInAnyBlur) {
+    std::mt19937 random(12);
+    for (const BlurPlan& plan : {ean_13_plan, ean_8_plan}) {
+        for (int i = 0; i < 60; ++i) {
+            look_at_noise(plan, Ratio::from_ratio(3 + i % 33, 10), i % 2 == 0 ? 300 : 2 * full_darkness,
+                          random);
+            // Without leaving anything out.
+            std::int32_t to[2][first_c] = {};
+            for (int own = 0; own < plan.alphabet_size(0); ++own) to[0][own] = seen().costs.of[0][own];
+            for (int place = 1; place < plan.letters; ++place) {
+                for (int own = 0; own < plan.alphabet_size(place); ++own) {
+                    std::int32_t best = std::numeric_limits<std::int32_t>::max();
+                    for (int before = 0; before < plan.alphabet_size(place - 1); ++before) {
+                        best = std::min(best, to[(place - 1) % 2][before] +
+                                                  pair_cost(plan, seen().letters, place - 1, before, own));
+                    }
+                    to[place % 2][own] = best + seen().costs.of[place][own];
+                }
+            }
+            const std::int32_t* last = to[(plan.letters - 1) % 2];
+            const std::int32_t least =
+                *std::min_element(last, last + plan.alphabet_size(plan.letters - 1)) + seen().costs.nothing;
+            EXPECT_EQ(cheapest_letters(plan, seen().letters, seen().costs, seen().letter_paths), least) << i;
+            EXPECT_LE(least_letters(plan, seen().costs), least) << i;
+        }
+    }
+}
+
+TEST(CheapestDigits, AreThoseOfTheCheapestFirstDigit) {
+    std::mt19937 random(13);
+    for (int i = 0; i < 60; ++i) {
+        look_at_noise(ean_13_plan, Ratio::from_ratio(3 + i % 33, 10), i % 2 == 0 ? 300 : 2 * full_darkness,
+                      random);
+        const CheapestDigits found = cheapest_digits(ean_13_plan, seen().letters, seen().costs, seen().paths);
+        std::int32_t best[10];
+        DigitSearch search(ean_13_plan, seen().letters, seen().costs, seen().paths);
+        for (int first = 0; first < 10; ++first) {
+            search.choose(first);
+            best[first] = search.forward() + seen().costs.nothing;
+            EXPECT_LE(search.least() + seen().costs.nothing, best[first]) << i << ' ' << first;
+        }
+        EXPECT_EQ(found.cost, *std::min_element(best, best + 10)) << i;
+        EXPECT_EQ(found.cost, best[found.digits[0]]) << i;
+        search.choose(found.digits[0]);
+        EXPECT_EQ(search.forward() + seen().costs.nothing, found.cost) << i;
+        std::int32_t second = search.second_to(found.digits) + seen().costs.nothing;
+        for (int first = 0; first < 10; ++first)
+            if (first != found.digits[0]) second = std::min(second, best[first]);
+        EXPECT_EQ(found.second, second) << i;
     }
 }
 

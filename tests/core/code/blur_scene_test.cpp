@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <fovea/base/random.hpp>
 #include <fovea/code/blur_scene.hpp>
 
 #include "support/blurred_bars.hpp"
@@ -30,14 +31,48 @@ TEST(SampleProfile, IsLinearBetweenPlacesAndKeepsItsEnds) {
 }
 
 TEST(DarknessOf, IsTheShareBetweenWhiteAndBlack) {
+    static BlurLightTable table;
     std::int32_t levels[most_blur_samples];
     std::int32_t darkness[most_blur_samples];
     for (std::int32_t& level : levels) level = 51200 - 35840 / 2;
-    darkness_of(ean_13_plan, levels, even_light, darkness);
+    make_light_table(ean_13_plan, even_light, table);
+    darkness_of(ean_13_plan, levels, table, darkness);
     for (const std::int32_t at : darkness) EXPECT_EQ(at, full_darkness / 2);
     for (std::int32_t& level : levels) level = 0;
-    darkness_of(ean_13_plan, levels, {{51200, 51200}, {0, 0}}, darkness);
+    make_light_table(ean_13_plan, {{51200, 51200}, {0, 0}}, table);
+    darkness_of(ean_13_plan, levels, table, darkness);
     for (const std::int32_t at : darkness) EXPECT_EQ(at, 2 * full_darkness);
+}
+
+TEST(DarknessOf, IsTheQuotientInAnyLight) {
+    static BlurLightTable table;
+    Random random(5);
+    std::int32_t levels[most_blur_samples];
+    std::int32_t darkness[most_blur_samples];
+    for (const BlurPlan& plan : {ean_13_plan, ean_8_plan}) {
+        for (int trial = 0; trial < 300; ++trial) {
+            // As bright and as steep as fit_light() lets it be, and as faint.
+            const int most = trial % 3 == 0 ? 5000 : 262144;
+            const BlurLight light{
+                {random.between(-300000, 300000), random.between(-300000, 300000)},
+                {random.between(least_blur_contrast, most), random.between(least_blur_contrast, most)}};
+            make_light_table(plan, light, table);
+            for (int j = 0; j < plan.samples(); ++j) {
+                const LightAt at = light_at(plan, light, j);
+                // Some about what is an exact multiple, where a quotient is off first.
+                levels[j] = trial % 2 == 0 ? random.between(0, 65535)
+                                           : at.white - at.dark / 1024 * random.between(-1100, 2100) +
+                                                 random.between(-1, 1);
+            }
+            darkness_of(plan, levels, table, darkness);
+            for (int j = 0; j < plan.samples(); ++j) {
+                const LightAt at = light_at(plan, light, j);
+                const std::int64_t quotient = std::int64_t{at.white - levels[j]} * full_darkness / at.dark;
+                ASSERT_EQ(darkness[j], clamp<std::int64_t>(quotient, -full_darkness, 2 * full_darkness))
+                    << trial << ' ' << j;
+            }
+        }
+    }
 }
 
 TEST(FitLight, FindsTheLightThatLevelsWereMadeIn) {

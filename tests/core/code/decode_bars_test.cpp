@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include <fovea/base/random.hpp>
 #include <fovea/code/bar_edges.hpp>
 #include <fovea/code/decode_bars.hpp>
 #include <support/bars.hpp>
@@ -98,6 +103,41 @@ TEST(DecodeBars, ChecksItsArguments) {
     EXPECT_EQ(decode_bars(span_of(edges), 0, odd, reading), Status::bad_argument);
     EXPECT_EQ(decode_bars({}, 0, {}, reading), Status::not_found);
     EXPECT_EQ(reading.size, 77);
+}
+
+TEST(DecodeBars, TheFirstLookLeavesOutNothingThatADecoderReads) {
+    Random random(31);
+    int read = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+        // Runs and quiet zone are some wider or narrower, so that decoders are near their limits.
+        const BarSample& sample = bar_samples[static_cast<std::size_t>(trial) % std::size(bar_samples)];
+        std::vector<std::int32_t> edges = edges_of(bars_of(sample.symbology, sample.text), 600);
+        const std::int32_t quiet = random.between(1, 12) * 400;
+        const int jitter = random.between(0, 120);
+        std::vector<std::int32_t> moved = {0};
+        for (std::size_t i = 1; i < edges.size(); ++i) {
+            const std::int32_t run = i == 1 ? quiet : edges[i] - edges[i - 1];
+            moved.push_back(moved.back() + std::max(1, run + random.between(-jitter, jitter)));
+        }
+        const BarEdges line = span_of(moved);
+        const BarRules rules;
+        for (int first = 1; first + detail::fewest_bar_edges < line.size(); first += 2) {
+            BarReading plain;
+            Status expected = decode_ean(line, first, rules, plain);
+            if (expected != Status::ok) expected = decode_code_128(line, first, plain);
+            if (expected != Status::ok) expected = decode_code_39(line, first, rules, plain);
+            if (expected != Status::ok) expected = decode_interleaved(line, first, rules, plain);
+            if (expected != Status::ok) expected = decode_codabar(line, first, rules, plain);
+            BarReading reading;
+            const Status status = detail::decode_bars_at(line, first, rules, reading);
+            ASSERT_EQ(status == Status::ok, expected == Status::ok) << trial << ' ' << first;
+            if (status != Status::ok) continue;
+            ++read;
+            EXPECT_EQ(text_of(reading), text_of(plain));
+            EXPECT_EQ(reading.symbology, plain.symbology);
+        }
+    }
+    EXPECT_GT(read, 1000);
 }
 
 }  // namespace

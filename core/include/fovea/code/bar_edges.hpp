@@ -79,12 +79,13 @@ inline std::int32_t find_bar_ranges(BarProfile profile, Span<std::int16_t> range
     for (int block = 0; block < blocks + bar_reach; ++block) {
         const int slot = block % window;
         if (block < blocks) {
-            const int end = minimum(length, (block + 1) * bar_block);
-            std::int16_t least = profile[block * bar_block];
-            std::int16_t most = least;
-            for (int i = block * bar_block; i < end; ++i) {
-                least = minimum(least, profile[i]);
-                most = maximum(most, profile[i]);
+            const std::int16_t* own = profile.data() + block * bar_block;
+            const int samples = minimum(length - block * bar_block, bar_block);
+            std::int16_t least = own[0];
+            std::int16_t most = own[0];
+            for (int i = 1; i < samples; ++i) {
+                least = minimum(least, own[i]);
+                most = maximum(most, own[i]);
             }
             low[slot] = least;
             high[slot] = most;
@@ -105,15 +106,20 @@ inline std::int32_t find_bar_ranges(BarProfile profile, Span<std::int16_t> range
     return highest - lowest;
 }
 
-/// The middle of the brightness about turn i: of the highest and the lowest turns near it.
+/// The middle of the brightness about turn i and the next one: of the highest and the lowest turns near them.
+/// Bright turns and dark ones alternate, so that half of them can be the highest.
 inline std::int32_t middle_level(Span<const BarTurn> turns, int i) {
     const auto count = static_cast<int>(turns.size());
-    std::int32_t least = turns[i].level;
-    std::int32_t most = least;
-    for (int near = maximum(i - 4, 0); near <= minimum(i + 5, count - 1); ++near) {
+    const bool dark = turns[i].level < turns[i + 1].level;
+    std::int32_t least = turns[dark ? i : i + 1].level;
+    std::int32_t most = turns[dark ? i + 1 : i].level;
+    const int first = maximum(i - 4, 0);
+    const int last = minimum(i + 5, count - 1);
+    const int dark_parity = dark ? i : i + 1;
+    for (int near = first + ((first ^ dark_parity) & 1); near <= last; near += 2)
         least = minimum(least, turns[near].level);
+    for (int near = first + 1 - ((first ^ dark_parity) & 1); near <= last; near += 2)
         most = maximum(most, turns[near].level);
-    }
     return (least + most) / 2;
 }
 
@@ -132,7 +138,7 @@ inline std::int32_t crossing(BarProfile profile, BarTurn from, BarTurn to, std::
         if (a == b) return left * 256 + 128;
         return left * 256 + clamp<std::int32_t>((level - a) * 256 / (b - a), 0, 256);
     };
-    return (between(at) + between(back - 1)) / 2;
+    return at == back - 1 ? between(at) : (between(at) + between(back - 1)) / 2;
 }
 
 /// Where the profile is steepest between two turns, in 1/256 sample.
@@ -144,16 +150,23 @@ inline std::int32_t steepest(BarProfile profile, BarTurn from, BarTurn to) {
     };
     std::int32_t best = from.place;
     std::int32_t end = best;  // of the samples that are equally steep
-    for (std::int32_t at = from.place; at < to.place; ++at) {
-        if (slope(at) > slope(best))
+    std::int32_t steep = slope(best);
+    std::int32_t level = profile[minimum(best + 1, last + 1)];
+    for (std::int32_t at = from.place + 1; at < to.place; ++at) {
+        const std::int32_t next = profile[at + 1];
+        const std::int32_t own = sign * (next - level);
+        level = next;
+        if (own > steep) {
+            steep = own;
             best = end = at;
-        else if (slope(at) == slope(best) && end == at - 1)
+        } else if (own == steep && end == at - 1) {
             end = at;
+        }
     }
     if (end > best) return (best + end) * 128 + 128;
     const std::int32_t before = maximum<std::int32_t>(slope(best - 1), 0);
     const std::int32_t behind = maximum<std::int32_t>(slope(best + 1), 0);
-    const std::int32_t bend = 2 * slope(best) - before - behind;
+    const std::int32_t bend = 2 * steep - before - behind;
     const std::int32_t shift = bend > 0 ? (behind - before) * 128 / bend : 0;
     return best * 256 + 128 + clamp<std::int32_t>(shift, -128, 128);
 }
@@ -162,16 +175,24 @@ inline std::int32_t steepest(BarProfile profile, BarTurn from, BarTurn to) {
 
 inline void sharpen_bar_profile(BarProfile profile, int reach, Span<std::int16_t> sharp) {
     const auto last = static_cast<int>(profile.size()) - 1;
-    for (int i = 0; i <= last; ++i) {
+    const auto at_border = [&](int i) {
         const std::int32_t mean = (profile[maximum(i - reach, 0)] + profile[minimum(i + reach, last)]) / 2;
         sharp[i] = static_cast<std::int16_t>(2 * profile[i] - mean);
+    };
+    int i = 0;
+    for (; i < minimum(reach, last + 1); ++i) at_border(i);
+    for (; i + reach <= last; ++i) {
+        sharp[i] = static_cast<std::int16_t>(2 * profile[i] - (profile[i - reach] + profile[i + reach]) / 2);
     }
+    for (; i <= last; ++i) at_border(i);
 }
 
-inline int find_bar_turns(BarProfile profile, int share, Span<std::int16_t> ranges, Span<BarTurn> turns) {
+namespace detail {
+
+/// As find_bar_turns(), for the ranges that find_bar_ranges() found and the whole contrast that it answered.
+inline int find_turns_in_ranges(BarProfile profile, int share, Span<const std::int16_t> ranges,
+                                std::int32_t whole, Span<BarTurn> turns) {
     const auto length = static_cast<int>(profile.size());
-    if (length < 2) return 0;
-    const std::int32_t whole = detail::find_bar_ranges(profile, ranges);
     const std::int32_t floor = maximum(detail::least_bar_contrast, whole / 32);
     int count = 0;
     std::int32_t high = profile[0];
@@ -184,11 +205,12 @@ inline int find_bar_turns(BarProfile profile, int share, Span<std::int16_t> rang
         const int end = minimum(length, (block + 1) * detail::bar_block);
         for (int at = block * detail::bar_block; at < end; ++at) {
             const std::int32_t level = profile[at];
-            if (level > high) {
+            // Before the first turn it is not known which of both it will be.
+            if (heading >= 0 && level > high) {
                 high = level;
                 high_at = at;
             }
-            if (level < low) {
+            if (heading <= 0 && level < low) {
                 low = level;
                 low_at = at;
             }
@@ -197,21 +219,25 @@ inline int find_bar_turns(BarProfile profile, int share, Span<std::int16_t> rang
                 heading = -1;
                 low = level;
                 low_at = at;
-                high = level;
-                high_at = at;
             } else if (heading <= 0 && level - low >= step) {
                 turns[count++] = {low_at, low};
                 heading = 1;
                 high = level;
                 high_at = at;
-                low = level;
-                low_at = at;
             }
         }
     }
     if (heading == 1) turns[count++] = {high_at, high};
     if (heading == -1) turns[count++] = {low_at, low};
     return count;
+}
+
+}  // namespace detail
+
+inline int find_bar_turns(BarProfile profile, int share, Span<std::int16_t> ranges, Span<BarTurn> turns) {
+    if (profile.size() < 2) return 0;
+    const std::int32_t whole = detail::find_bar_ranges(profile, ranges);
+    return detail::find_turns_in_ranges(profile, share, ranges, whole, turns);
 }
 
 inline int find_bar_edges(BarProfile profile, Span<const BarTurn> turns, BarEdgeRule rule,

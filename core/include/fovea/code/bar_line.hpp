@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <fovea/base/assert.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/code/bar_edges.hpp>
 #include <fovea/image/geometry.hpp>
@@ -30,7 +31,8 @@ constexpr SubPixelPoint point_of(const BarLine& line, std::int32_t place);
 /// 16 of their distance. No samples if they are one.
 inline BarLine bar_line_through(Size size, SubPixelPoint from, SubPixelPoint to, int beyond);
 
-/// Samples a line inside the image, each the mean of `breadth` parallel lines a pixel apart, breadth odd.
+/// Samples a line inside the image, each the mean of `breadth` parallel lines a pixel apart, breadth odd and
+/// at most 127.
 /// What lies outside the image is what its border shows.
 inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int breadth,
                             Span<std::int16_t> profile);
@@ -86,10 +88,62 @@ inline BarLine bar_line_through(Size size, SubPixelPoint from, SubPixelPoint to,
     return line;
 }
 
-inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int breadth,
-                            Span<std::int16_t> profile) {
+namespace detail {
+
+/// The mean of `breadth` rows or columns beside each other: sums of at most 127 * 255 fit 16 bits.
+inline void sample_on_grid(ImageView<const Gray8> src, Point from, bool is_row, int samples, int breadth,
+                           Span<std::int16_t> profile) {
+    const int last = (is_row ? src.height() : src.width()) - 1;
+    for (int i = 0; i < samples; ++i) profile[i] = 0;
+    for (int k = -(breadth / 2); k <= breadth / 2; ++k) {
+        if (is_row) {
+            const Gray8* row = src.row(clamp(from.y + k, 0, last)) + from.x;
+            for (int i = 0; i < samples; ++i) profile[i] = static_cast<std::int16_t>(profile[i] + row[i]);
+        } else {
+            const int x = clamp(from.x + k, 0, last);
+            for (int i = 0; i < samples; ++i)
+                profile[i] = static_cast<std::int16_t>(profile[i] + src(x, from.y + i));
+        }
+    }
+    const std::int32_t reciprocal = 65536 / breadth;
+    for (int i = 0; i < samples; ++i)
+        profile[i] = static_cast<std::int16_t>((profile[i] * 16 * reciprocal + 32768) >> 16);
+}
+
+/// Brightness between the pixels at, right of, below and below right of a place, in 1/16 grey level. Of x and
+/// y the lower 16 bits count, in 1/65536 px.
+constexpr std::int32_t brightness_between(const Gray8* upper, const Gray8* lower, int left, int right,
+                                          std::int32_t x, std::int32_t y) {
+    const std::int32_t right_share = x >> 8 & 255;
+    const std::int32_t a = upper[left] * 256 + (upper[right] - upper[left]) * right_share;
+    const std::int32_t b = lower[left] * 256 + (lower[right] - lower[left]) * right_share;
+    return (a * 256 + (b - a) * (y >> 8 & 255)) >> 12;
+}
+
+/// At a place in 1/65536 px; beyond the image is what its border shows.
+inline std::int32_t brightness_at(ImageView<const Gray8> src, std::int64_t x, std::int64_t y) {
     const int last_x = src.width() - 1;
     const int last_y = src.height() - 1;
+    const auto in_x = static_cast<std::int32_t>(clamp<std::int64_t>(x, 0, std::int64_t{last_x} * 65536));
+    const auto in_y = static_cast<std::int32_t>(clamp<std::int64_t>(y, 0, std::int64_t{last_y} * 65536));
+    const int left = in_x >> 16;
+    const int top = in_y >> 16;
+    return brightness_between(src.row(top), src.row(minimum(top + 1, last_y)), left,
+                              minimum(left + 1, last_x), in_x, in_y);
+}
+/// The same where the right and the lower neighbour are in the image.
+inline std::int32_t brightness_inside(ImageView<const Gray8> src, std::int64_t x, std::int64_t y) {
+    const auto left = static_cast<int>(x >> 16);
+    const auto top = static_cast<int>(y >> 16);
+    return brightness_between(src.row(top), src.row(top + 1), left, left + 1, static_cast<std::int32_t>(x),
+                              static_cast<std::int32_t>(y));
+}
+
+}  // namespace detail
+
+inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int breadth,
+                            Span<std::int16_t> profile) {
+    FOVEA_ASSERT(breadth >= 1 && breadth <= 127);
     const std::int32_t from_x = line.from.x.raw();
     const std::int32_t from_y = line.from.y.raw();
     const std::int32_t step_x = line.step.x.raw();
@@ -102,44 +156,40 @@ inline void sample_bar_line(ImageView<const Gray8> src, const BarLine& line, int
         for (int i = 0; i < line.samples; ++i) profile[i] = static_cast<std::int16_t>(row[i] * 16);
         return;
     }
-    const std::int32_t reciprocal = 65536 / breadth;
     if (is_row || is_column) {
-        const int half = breadth / 2;
-        for (int i = 0; i < line.samples; ++i) {
-            const int x = (from_x >> 16) + (is_row ? i : 0);
-            const int y = (from_y >> 16) + (is_row ? 0 : i);
-            std::int32_t sum = 0;
-            for (int k = -half; k <= half; ++k) {
-                sum += is_row ? src(x, clamp(y + k, 0, last_y)) : src(clamp(x + k, 0, last_x), y);
-            }
-            profile[i] = static_cast<std::int16_t>((sum * 16 * reciprocal + 32768) >> 16);
-        }
+        const Point from{from_x >> 16, from_y >> 16};
+        detail::sample_on_grid(src, from, is_row, line.samples, breadth, profile);
         return;
     }
-    for (int i = 0; i < line.samples; ++i) {
-        std::int32_t sum = 0;
-        for (int k = -(breadth / 2); k <= breadth / 2; ++k) {
+    // Of most lines all samples lie in the image, as those at their ends do.
+    const int half = breadth / 2;
+    const auto is_inside = [&](std::int64_t i, std::int64_t k) {
+        const std::int64_t x = (from_x + step_x * i - step_y * k) >> 16;
+        const std::int64_t y = (from_y + step_y * i + step_x * k) >> 16;
+        return x >= 0 && x + 1 < src.width() && y >= 0 && y + 1 < src.height();
+    };
+    const int end = line.samples - 1;
+    const bool inside =
+        is_inside(0, -half) && is_inside(0, half) && is_inside(end, -half) && is_inside(end, half);
+    const std::int32_t reciprocal = 65536 / breadth;
+    const auto sample = [&](auto brightness) {
+        for (int i = 0; i < line.samples; ++i) {
             // Across the line: the step turned by a quarter.
-            const std::int64_t wide_x =
-                std::int64_t{from_x} + std::int64_t{step_x} * i - std::int64_t{step_y} * k;
-            const std::int64_t wide_y =
-                std::int64_t{from_y} + std::int64_t{step_y} * i + std::int64_t{step_x} * k;
-            const auto x =
-                static_cast<std::int32_t>(clamp<std::int64_t>(wide_x, 0, std::int64_t{last_x} * 65536));
-            const auto y =
-                static_cast<std::int32_t>(clamp<std::int64_t>(wide_y, 0, std::int64_t{last_y} * 65536));
-            const int left = x >> 16;
-            const int top = y >> 16;
-            const std::int32_t right_share = x >> 8 & 255;
-            const std::int32_t bottom_share = y >> 8 & 255;
-            const Gray8* upper = src.row(top);
-            const Gray8* lower = src.row(minimum(top + 1, last_y));
-            const int right = minimum(left + 1, last_x);
-            const std::int32_t a = upper[left] * (256 - right_share) + upper[right] * right_share;
-            const std::int32_t b = lower[left] * (256 - right_share) + lower[right] * right_share;
-            sum += (a * (256 - bottom_share) + b * bottom_share) >> 12;
+            std::int64_t x = from_x + std::int64_t{step_x} * i + std::int64_t{step_y} * half;
+            std::int64_t y = from_y + std::int64_t{step_y} * i - std::int64_t{step_x} * half;
+            std::int32_t sum = 0;
+            for (int k = -half; k <= half; ++k, x -= step_y, y += step_x) sum += brightness(src, x, y);
+            profile[i] = static_cast<std::int16_t>((std::int64_t{sum} * reciprocal + 32768) >> 16);
         }
-        profile[i] = static_cast<std::int16_t>((std::int64_t{sum} * reciprocal + 32768) >> 16);
+    };
+    if (inside) {
+        sample([](ImageView<const Gray8> image, std::int64_t x, std::int64_t y) {
+            return detail::brightness_inside(image, x, y);
+        });
+    } else {
+        sample([](ImageView<const Gray8> image, std::int64_t x, std::int64_t y) {
+            return detail::brightness_at(image, x, y);
+        });
     }
 }
 

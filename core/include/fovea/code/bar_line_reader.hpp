@@ -73,24 +73,28 @@ public:
                 turns_.size() * static_cast<std::ptrdiff_t>(sizeof(BarTurn))};
     }
 
-    /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only.
-    void read(const BarLine& line, int level, Span<std::int16_t> sharp) {
+    /// Reads a line whose profile was set. sharp, as long as the profile, is needed at level 2 only. The
+    /// sights before first_sight are left out: nothing was seen with them before.
+    void read(const BarLine& line, int level, Span<std::int16_t> sharp, int first_sight = 0) {
         if (line.samples < fewest_bar_edges || spent()) return;
         const Span<std::int16_t> plain = profile(line.samples);
         Span<std::int16_t> profile = plain;
         int share = 0;
         int sharpness = 0;
         int turns = 0;
-        for (int i = 0; i < bar_sight_counts[level]; ++i) {
+        std::int32_t contrast = find_bar_ranges(plain, ranges_);
+        for (int i = first_sight; i < bar_sight_counts[level]; ++i) {
             const BarSight sight = bar_sights[i];
             if (sight.sharpness != sharpness) {
                 profile = sharp.first(line.samples);
                 sharpen_bar_profile(plain, sight.sharpness, profile);
+                contrast = find_bar_ranges(profile, ranges_);
                 share = 0;
             }
             sharpness = sight.sharpness;
             budget_.spend(line.samples);
-            if (sight.share != share) turns = find_bar_turns(profile, sight.share, ranges_, turns_);
+            if (sight.share != share)
+                turns = find_turns_in_ranges(profile, sight.share, ranges_, contrast, turns_);
             share = sight.share;
             if (turns < fewest_bar_edges) continue;
             int count = find_bar_edges(profile, turns_.first(turns), sight.rule, edges_);

@@ -76,6 +76,31 @@ constexpr unsigned letter_modules(int letter) {
     return all_letter_modules.of[letter];
 }
 
+/// Where the two bars of a letter begin and end, in its modules.
+struct LetterBars {
+    std::uint8_t at[4];
+};
+constexpr LetterBars bars_of_letter(int letter) {
+    LetterBars bars{};
+    unsigned before = 0;
+    int found = 0;
+    for (int k = 0; k <= 7; ++k) {
+        const unsigned own = k < 7 ? letter_modules(letter) >> (6 - k) & 1 : 0;
+        if (own != before) bars.at[found++] = static_cast<std::uint8_t>(k);
+        before = own;
+    }
+    return bars;
+}
+struct LetterBarTable {
+    LetterBars of[letter_count];
+    constexpr LetterBars operator[](int letter) const { return of[letter]; }
+};
+inline constexpr LetterBarTable letter_bars = [] {
+    LetterBarTable table{};
+    for (int letter = 0; letter < letter_count; ++letter) table.of[letter] = bars_of_letter(letter);
+    return table;
+}();
+
 /// Where the letters of a symbol stand.
 struct BlurPlan {
     int modules;
@@ -132,41 +157,64 @@ inline ModuleResponse module_response(Ratio blur) {
 /// zT) + sum 2 T T'.
 struct BlurLetters {
     ModuleResponse module;
-    std::int32_t response[letter_count][letter_response_size];  ///< at most full_darkness
-    std::int32_t energy[letter_count];                          ///< |T|^2
+    std::int32_t energy[letter_count];                ///< |T|^2
     std::int32_t beside[letter_count][letter_count];  ///< 2 T T' of a letter and the next of its side
     std::int32_t across[first_c][10];                 ///< the same across the centre; the right one is of C
+    std::int32_t most_beside;                         ///< the most of both
 };
 
-inline std::int32_t common_darkness(const std::int32_t* left, const std::int32_t* right, int distance) {
-    std::int32_t sum = 0;
-    for (int j = distance; j < letter_response_size; ++j) sum += left[j] * right[j - distance];
-    return 2 * sum;
+/// What is common of two single modules that lie so many modules apart: none beyond seven.
+struct ModuleOverlaps {
+    std::int32_t at[blur_reach + 1];
+};
+inline ModuleOverlaps module_overlaps(const ModuleResponse& module) {
+    ModuleOverlaps overlaps{};
+    for (int apart = 0; apart <= blur_reach; ++apart) {
+        for (int i = blur_samples * apart; i < module_response_size; ++i)
+            overlaps.at[apart] += module.at[i] * module.at[i - blur_samples * apart];
+    }
+    return overlaps;
 }
+
+/// T T' of a letter and any that begins so many modules behind it: before each module of that one, what is
+/// common with those before it, in sum.
+struct CommonDarkness {
+    std::int32_t before[8];
+
+    CommonDarkness(const ModuleOverlaps& overlaps, int letter, int distance) : before{} {
+        const unsigned modules = letter_modules(letter);
+        for (int l = 0; l < 7; ++l) {
+            std::int32_t sum = 0;
+            for (int k = 0; k < 7; ++k) {
+                const int apart = distance + l - k < 0 ? k - l - distance : distance + l - k;
+                if ((modules >> (6 - k) & 1) != 0 && apart <= blur_reach) sum += overlaps.at[apart];
+            }
+            before[l + 1] = before[l] + sum;
+        }
+    }
+    std::int32_t with(int other) const {
+        const LetterBars bars = letter_bars[other];
+        return before[bars.at[1]] - before[bars.at[0]] + before[bars.at[3]] - before[bars.at[2]];
+    }
+};
 
 inline void see_letters(Ratio blur, BlurLetters& letters) {
     letters.module = module_response(blur);
-    for (int letter = 0; letter < letter_count; ++letter) {
-        std::int32_t* response = letters.response[letter];
-        for (int j = 0; j < letter_response_size; ++j) response[j] = 0;
-        for (int k = 0; k < 7; ++k) {
-            if ((letter_modules(letter) >> (6 - k) & 1) == 0) continue;
-            for (int i = 0; i < module_response_size; ++i)
-                response[blur_samples * k + i] += letters.module.at[i];
-        }
-        letters.energy[letter] = common_darkness(response, response, 0) / 2;
-    }
+    letters.most_beside = 0;
+    const ModuleOverlaps overlaps = module_overlaps(letters.module);
     for (int left = 0; left < letter_count; ++left) {
+        letters.energy[left] = CommonDarkness(overlaps, left, 0).with(left);
+        const CommonDarkness beside(overlaps, left, 7);
         const int first = left < first_c ? 0 : first_c;
         for (int right = first; right < (left < first_c ? first_c : letter_count); ++right) {
-            letters.beside[left][right] =
-                common_darkness(letters.response[left], letters.response[right], 7 * blur_samples);
+            letters.beside[left][right] = 2 * beside.with(right);
+            letters.most_beside = maximum(letters.most_beside, letters.beside[left][right]);
         }
-    }
-    for (int left = 0; left < first_c; ++left) {
+        if (left >= first_c) continue;
+        const CommonDarkness across(overlaps, left, 7 + 5);
         for (int right = 0; right < 10; ++right) {
-            letters.across[left][right] = common_darkness(
-                letters.response[left], letters.response[first_c + right], (7 + 5) * blur_samples);
+            letters.across[left][right] = 2 * across.with(first_c + right);
+            letters.most_beside = maximum(letters.most_beside, letters.across[left][right]);
         }
     }
 }

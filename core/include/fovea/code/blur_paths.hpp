@@ -26,15 +26,31 @@ struct LetterCosts {
 ///         theirs stay below 2^31
 inline void cost_letters(const BlurPlan& plan, const BlurLetters& letters, const std::int32_t* darkness,
                          LetterCosts& costs) {
+    // Of 16 bits, which vectors multiply and add at once.
+    std::int16_t seen[most_blur_samples];
+    std::int16_t module[module_response_size];
     costs.nothing = 0;
-    for (int j = 0; j < plan.samples(); ++j) costs.nothing += darkness[j] * darkness[j];
+    for (int j = 0; j < plan.samples(); ++j) {
+        seen[j] = static_cast<std::int16_t>(darkness[j]);
+        costs.nothing += darkness[j] * darkness[j];
+    }
+    for (int i = 0; i < module_response_size; ++i)
+        module[i] = static_cast<std::int16_t>(letters.module.at[i]);
     for (int place = 0; place < plan.letters; ++place) {
-        const std::int32_t* seen = darkness + blur_samples * plan.first(place);
+        // A letter is the sum of its modules, so that zT is one over its dark modules: for each of two bars
+        // that of all before its end less that of all before its beginning.
+        std::int32_t before[8] = {};
+        for (int k = 0; k < 7; ++k) {
+            const std::int16_t* at = seen + blur_samples * (plan.first(place) + k);
+            std::int32_t sum = 0;
+            for (int i = 0; i < module_response_size; ++i) sum += at[i] * module[i];
+            before[k + 1] = before[k] + sum;
+        }
         for (int i = 0; i < plan.alphabet_size(place); ++i) {
             const int letter = plan.alphabet(place) + i;
-            const std::int32_t* response = letters.response[letter];
-            std::int32_t sum = 0;
-            for (int j = 0; j < letter_response_size; ++j) sum += seen[j] * response[j];
+            const LetterBars bars = letter_bars[letter];
+            const std::int32_t sum =
+                before[bars.at[1]] - before[bars.at[0]] + before[bars.at[3]] - before[bars.at[2]];
             costs.of[place][i] = letters.energy[letter] - 2 * sum;
         }
     }
@@ -67,8 +83,14 @@ inline std::int32_t cheapest_letters(const BlurPlan& plan, const BlurLetters& le
         const int first = plan.alphabet(place);
         std::int32_t* to = paths.to[place];
         for (int right = 0; right < count; ++right) to[right] = std::numeric_limits<std::int32_t>::max();
+        std::int32_t cheapest = paths.to[place - 1][0];
+        for (int left = 1; left < plan.alphabet_size(place - 1); ++left) {
+            cheapest = minimum(cheapest, paths.to[place - 1][left]);
+        }
         for (int left = 0; left < plan.alphabet_size(place - 1); ++left) {
             const std::int32_t before = paths.to[place - 1][left];
+            // Not better than the cheapest letter before, whatever these have in common.
+            if (before > cheapest + letters.most_beside) continue;
             const std::int32_t* both = place == plan.left
                                            ? letters.across[left]
                                            : letters.beside[plan.alphabet(place - 1) + left] + first;
@@ -80,6 +102,16 @@ inline std::int32_t cheapest_letters(const BlurPlan& plan, const BlurLetters& le
     std::int32_t best = last[0];
     for (int i = 1; i < plan.alphabet_size(plan.letters - 1); ++i) best = minimum(best, last[i]);
     return costs.nothing + best;
+}
+/// The most that cheapest_letters() surely is not below: what letters have in common is no less than 0.
+inline std::int32_t least_letters(const BlurPlan& plan, const LetterCosts& costs) {
+    std::int32_t sum = costs.nothing;
+    for (int place = 0; place < plan.letters; ++place) {
+        std::int32_t least = costs.of[place][0];
+        for (int i = 1; i < plan.alphabet_size(place); ++i) least = minimum(least, costs.of[place][i]);
+        sum += least;
+    }
+    return sum;
 }
 /// The row of letters that cheapest_letters() found.
 inline void trace_letters(const BlurPlan& plan, const BlurLetters& letters, const LetterPaths& paths,
@@ -122,6 +154,25 @@ public:
         : plan_(plan), letters_(letters), costs_(costs), paths_(paths) {}
 
     void choose(int first_digit) { first_digit_ = first_digit; }
+
+    /// The cost of the cheapest digits, whatever their check digit: not above that of forward().
+    std::int32_t least() const {
+        std::int32_t to[10];
+        for (int digit = 0; digit < 10; ++digit) to[digit] = own(0, digit);
+        for (int place = 1; place < plan_.letters; ++place) {
+            std::int32_t next[10];
+            for (std::int32_t& cost : next) cost = no_path;
+            for (int before = 0; before < 10; ++before) {
+                const std::int32_t* both = pairs(place - 1, before);
+                for (int digit = 0; digit < 10; ++digit)
+                    next[digit] = minimum(next[digit], to[before] + both[digit]);
+            }
+            for (int digit = 0; digit < 10; ++digit) to[digit] = next[digit] + own(place, digit);
+        }
+        std::int32_t best = to[0];
+        for (const std::int32_t cost : to) best = minimum(best, cost);
+        return best;
+    }
 
     /// The cost of the cheapest digits that end with a right check digit.
     std::int32_t forward() {
@@ -185,6 +236,13 @@ private:
     std::int32_t pair(int place, int left, int right) const {
         return pair_cost(plan_, letters_, place, letter(place, left), letter(place + 1, right));
     }
+    /// pair() of a digit with each of the ten that may follow it.
+    const std::int32_t* pairs(int place, int left) const {
+        const int own = letter(place, left);
+        if (place + 1 == plan_.left) return letters_.across[own];
+        const int alphabet = plan_.alphabet(place);
+        return letters_.beside[alphabet + own] + alphabet + letter(place + 1, 0);
+    }
     std::int32_t step(int place, int before, int digit, int sum_before) const {
         const std::int32_t to = paths_.to[place - 1][before][sum_before];
         return to == no_path ? no_path : to + pair(place - 1, before, digit);
@@ -236,13 +294,31 @@ inline CheapestDigits cheapest_digits(const BlurPlan& plan, const BlurLetters& l
                                       const LetterCosts& costs, DigitPaths& paths) {
     DigitSearch search(plan, letters, costs, paths);
     const int first_digits = plan.has_parity ? 10 : 1;
+    // The likeliest first digit comes first: of the others those are left out that are surely worse than the
+    // next best.
     std::int32_t best[10];
-    int chosen = 0;
+    std::int32_t least[10];
     for (int first = 0; first < first_digits; ++first) {
         search.choose(first);
-        best[first] = search.forward();
-        if (best[first] < best[chosen]) chosen = first;
+        least[first] = search.least();
+        best[first] = no_path;
     }
+    std::int32_t cheapest = no_path;
+    std::int32_t next = no_path;
+    for (int tried = 0; tried < first_digits; ++tried) {
+        int first = 0;
+        for (int other = 1; other < first_digits; ++other)
+            if (least[other] < least[first]) first = other;
+        if (least[first] > next) break;
+        search.choose(first);
+        best[first] = search.forward();
+        least[first] = no_path;
+        next = minimum(next, maximum(cheapest, best[first]));
+        cheapest = minimum(cheapest, best[first]);
+    }
+    int chosen = 0;
+    for (int first = 1; first < first_digits; ++first)
+        if (best[first] < best[chosen]) chosen = first;
     search.choose(chosen);
     CheapestDigits found;
     found.cost = costs.nothing + search.forward();

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include <fovea/base/assert.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/code/blur_letters.hpp>
 #include <fovea/code/blur_paths.hpp>
@@ -23,6 +24,11 @@ namespace fovea::detail {
 struct BlurLight {
     std::int32_t white[2];
     std::int32_t dark[2];
+
+    friend constexpr bool operator==(const BlurLight& a, const BlurLight& b) {
+        return a.white[0] == b.white[0] && a.white[1] == b.white[1] && a.dark[0] == b.dark[0] &&
+               a.dark[1] == b.dark[1];
+    }
 };
 /// Below 12 gray levels between white and black there is nothing to read.
 inline constexpr std::int32_t least_blur_contrast = 12 * 256;
@@ -50,15 +56,33 @@ constexpr Ratio blur_in_modules(const BlurPlan& plan, const BlurScene& scene) {
         static_cast<std::int32_t>(clamp<std::int64_t>(modules, Ratio::one * 3 / 10, Ratio::one * 7 / 2)));
 }
 
-/// The levels of a profile at two places a module, linear between its own; beyond its ends, its last.
-inline void sample_profile(const BlurPlan& plan, Span<const std::uint16_t> profile, const BlurScene& scene,
-                           std::int32_t* levels) {
-    const std::int64_t length = std::int64_t{scene.end} - scene.start;
-    const std::int64_t most = (profile.size() - 1) * std::int64_t{FinePixel::one} - 1;
+/// Where the samples of a plan lie between the ends of its bars, and how far perspective moves them there;
+/// both Ratio.
+struct BlurPlaces {
+    std::int32_t share[most_blur_samples];
+    std::int32_t bend[most_blur_samples];
+};
+constexpr BlurPlaces places_of(const BlurPlan& plan) {
+    BlurPlaces places{};
     for (int j = 0; j < plan.samples(); ++j) {
         const std::int64_t share =
             std::int64_t{2 * (j - blur_reach) + 1} * Ratio::one / (2 * blur_samples * plan.modules);
-        const std::int64_t bent = share + (scene.bend * (share * (share - Ratio::one) >> 16) >> 16);
+        places.share[j] = static_cast<std::int32_t>(share);
+        places.bend[j] = static_cast<std::int32_t>(share * (share - Ratio::one) >> 16);
+    }
+    return places;
+}
+inline constexpr BlurPlaces ean_13_places = places_of(ean_13_plan);
+inline constexpr BlurPlaces ean_8_places = places_of(ean_8_plan);
+
+/// The levels of a profile at two places a module, linear between its own; beyond its ends, its last.
+inline void sample_profile(const BlurPlan& plan, Span<const std::uint16_t> profile, const BlurScene& scene,
+                           std::int32_t* levels) {
+    const BlurPlaces& places = plan.has_parity ? ean_13_places : ean_8_places;
+    const std::int64_t length = std::int64_t{scene.end} - scene.start;
+    const std::int64_t most = (profile.size() - 1) * std::int64_t{FinePixel::one} - 1;
+    for (int j = 0; j < plan.samples(); ++j) {
+        const std::int64_t bent = places.share[j] + (std::int64_t{scene.bend} * places.bend[j] >> 16);
         const std::int64_t place = clamp<std::int64_t>(scene.start + (length * bent >> 16), 0, most);
         const auto x = static_cast<std::ptrdiff_t>(place >> 16);
         const auto part = static_cast<std::int32_t>(place & 0xFFFF) >> 4;
@@ -71,23 +95,51 @@ struct LightAt {
     std::int32_t white;
     std::int32_t dark;
 };
+/// Bounds  levels of light are below 2^19 and places below 2^9: 32 bits hold their product
 inline LightAt light_at(const BlurPlan& plan, const BlurLight& light, int sample) {
     // In quarters of a module, half of a symbol is 2 * modules of them.
     const int place = 2 * (sample - blur_reach) + 1 - plan.modules;
     const auto line = [&](const std::int32_t(&level)[2]) {
-        return level[0] +
-               static_cast<std::int32_t>(std::int64_t{level[1] - level[0]} * place / (2 * plan.modules));
+        return level[0] + (level[1] - level[0]) * place / (2 * plan.modules);
     };
     return {line(light.white), maximum<std::int32_t>(line(light.dark), 256)};
 }
 
-/// Levels as darkness: 0 white, full_darkness black, and as much more to both sides as cost_letters() bears.
-inline void darkness_of(const BlurPlan& plan, const std::int32_t* levels, const BlurLight& light,
+/// What darkness_of() needs of a light at every sample: made once for all scenes in the same light.
+struct BlurLightTable {
+    BlurLight light;
+    int samples = 0;  ///< of its plan; 0: not made
+    LightAt at[most_blur_samples];
+    std::uint64_t
+        reciprocal[most_blur_samples];  ///< of dark, 2^light_reciprocal_bits * full_darkness / dark, upwards
+};
+/// Enough for an exact quotient: with n <= 2 * dark below 2^20, 2^40 is above n times what the reciprocal is
+/// too much, which is below dark.
+inline constexpr int light_reciprocal_bits = 40;
+
+inline void make_light_table(const BlurPlan& plan, const BlurLight& light, BlurLightTable& table) {
+    table.light = light;
+    table.samples = plan.samples();
+    constexpr std::uint64_t one = std::uint64_t{full_darkness} << light_reciprocal_bits;
+    for (int j = 0; j < plan.samples(); ++j) {
+        table.at[j] = light_at(plan, light, j);
+        const auto dark = static_cast<std::uint64_t>(table.at[j].dark);
+        FOVEA_ASSERT(dark < (1U << 19));
+        table.reciprocal[j] = (one + dark - 1) / dark;
+    }
+}
+
+/// Levels as darkness: 0 white, full_darkness black, and as much more to both sides as cost_letters() bears;
+/// quotients toward 0.
+inline void darkness_of(const BlurPlan& plan, const std::int32_t* levels, const BlurLightTable& table,
                         std::int32_t* darkness) {
     for (int j = 0; j < plan.samples(); ++j) {
-        const LightAt at = light_at(plan, light, j);
-        darkness[j] = static_cast<std::int32_t>(clamp<std::int64_t>(
-            std::int64_t{at.white - levels[j]} * full_darkness / at.dark, -full_darkness, 2 * full_darkness));
+        const LightAt at = table.at[j];
+        // Within what full_darkness times it over dark is from -full_darkness to 2 * full_darkness.
+        const std::int32_t off = clamp<std::int32_t>(at.white - levels[j], -at.dark, 2 * at.dark);
+        const auto size = static_cast<std::uint64_t>(off < 0 ? -off : off);
+        const auto quotient = static_cast<std::int32_t>(size * table.reciprocal[j] >> light_reciprocal_bits);
+        darkness[j] = off < 0 ? -quotient : quotient;
     }
 }
 inline void take_guards(const BlurPlan& plan, const ModuleResponse& module, std::int32_t* darkness) {

@@ -28,12 +28,13 @@ struct ProfileSpan {
     int right = 0;  ///< the first one of the right margin
 };
 
-/// What is needed to read one profile: about 22 KB.
+/// What is needed to read one profile: about 24 KB.
 struct BlurredEanScratch {
     detail::BlurLetters letters;
     detail::LetterCosts costs;
     detail::LetterPaths letter_paths;
     detail::DigitPaths paths;
+    detail::BlurLightTable lights[2];
     std::int32_t levels[detail::most_blur_samples];
     std::int32_t darkness[detail::most_blur_samples];
 };
@@ -92,7 +93,9 @@ inline constexpr std::int32_t worth_reading = full_darkness * 7 / 100 * (full_da
 class BlurredEanReader {
 public:
     BlurredEanReader(Span<const std::uint16_t> profile, const BlurPlan& plan, BlurredEanScratch& scratch)
-        : profile_(profile), plan_(plan), scratch_(scratch) {}
+        : profile_(profile), plan_(plan), scratch_(scratch) {
+        for (BlurLightTable& table : scratch_.lights) table.samples = 0;
+    }
 
     Status read(ProfileSpan span, BlurredEan& best) {
         BlurLight light;
@@ -161,9 +164,12 @@ private:
         trial.scene.blur = static_cast<std::int32_t>(std::int64_t{blur.raw()} * length /
                                                      (plan_.modules * std::int64_t{Ratio::one}));
         BlurTrial best = trial;
+        // What is not worth a descent, or than the worst that is kept, needs not be known any better.
+        std::int32_t limit = (worth_a_descent + 1) * plan_.samples();
+        if (count == kept_trials) limit = minimum(limit, trials[kept_trials - 1].cost);
         for (const int side : {0, -1, 1}) {
             trial.scene.bend = side * first_bend;
-            evaluate(trial);
+            evaluate(trial, limit);
             if (side == 0 || trial.cost < best.cost) best = trial;
         }
         keep_better(best, trials, count);
@@ -172,14 +178,30 @@ private:
         return static_cast<std::int32_t>(std::int64_t{dark} * edge / full_darkness);
     }
 
-    /// The cheapest letters of a scene, for the blur that the letters were made for.
-    void evaluate(BlurTrial& trial) {
+    /// The cheapest letters of a scene, for the blur that the letters were made for. A cost above the limit
+    /// may be told too low, but not below it.
+    void evaluate(BlurTrial& trial, std::int32_t limit) {
         ++work_;
         sample_profile(plan_, profile_, trial.scene, scratch_.levels);
-        darkness_of(plan_, scratch_.levels, trial.scene.light, scratch_.darkness);
+        darkness_of(plan_, scratch_.levels, light_table(trial.scene.light), scratch_.darkness);
         take_guards(plan_, scratch_.letters.module, scratch_.darkness);
         cost_letters(plan_, scratch_.letters, scratch_.darkness, scratch_.costs);
+        trial.cost = least_letters(plan_, scratch_.costs);
+        if (trial.cost > limit) return;
         trial.cost = cheapest_letters(plan_, scratch_.letters, scratch_.costs, scratch_.letter_paths);
+    }
+    /// Exactly, whatever it costs.
+    void evaluate(BlurTrial& trial) { evaluate(trial, std::numeric_limits<std::int32_t>::max()); }
+
+    /// Scenes of one profile are seen in few lights: one, the same from behind, and a fitted one.
+    const BlurLightTable& light_table(const BlurLight& light) {
+        for (const BlurLightTable& table : scratch_.lights) {
+            if (table.samples != 0 && table.light == light) return table;
+        }
+        BlurLightTable& table = scratch_.lights[next_light_];
+        next_light_ = 1 - next_light_;
+        make_light_table(plan_, light, table);
+        return table;
     }
     /// Both ends are moved by half a module, a quarter and an eighth, whatever makes letters fit; then the
     /// light to these.
@@ -196,7 +218,7 @@ private:
         sample_profile(plan_, profile_, trial.scene, scratch_.levels);
         darkness_of_letters(plan_, scratch_.letters.module, trial.row, scratch_.darkness);
         if (!fit_light(plan_, scratch_.levels, scratch_.darkness, lit.scene.light)) return;
-        evaluate(lit);
+        evaluate(lit, trial.cost);
         if (lit.cost < trial.cost) trial = lit;
     }
     bool move_ends(BlurTrial& trial, std::int32_t step) {
@@ -207,7 +229,7 @@ private:
                 BlurTrial moved = from;
                 moved.scene.start += start * step;
                 moved.scene.end += end * step;
-                evaluate(moved);
+                evaluate(moved, trial.cost);
                 if (moved.cost < trial.cost) trial = moved;
             }
         }
@@ -266,6 +288,7 @@ private:
     Span<const std::uint16_t> profile_;
     const BlurPlan& plan_;
     BlurredEanScratch& scratch_;
+    int next_light_ = 0;
     int work_ = 0;
 };
 

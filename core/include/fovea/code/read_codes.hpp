@@ -39,8 +39,8 @@ constexpr std::int64_t read_codes_scratch(Size size) {
 }
 
 /// Reads the codes of an image: first what is found fastest, QR, then bars, then Data Matrix; if there are
-/// none, again with all means. For one code of a small image whose edges cross, Data Matrix comes before
-/// bars.
+/// none, again with all means, and bars out of focus before Data Matrix. For one code of a small image whose
+/// edges cross, Data Matrix comes before bars.
 ///
 /// Shapes   src 1x1 or larger
 /// Time     bounded, as read_qr(), read_data_matrix() and read_bars() are
@@ -87,8 +87,10 @@ inline bool small_matrix_likely(ImageView<const Gray8> src) {
 }
 
 /// One look at an image for everything that is asked for.
+/// bars_seen: an earlier look read no bars on any line.
 inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions& options, bool thorough,
-                             Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes) {
+                             bool bars_seen, Span<std::uint8_t> scratch, CodeText& text,
+                             ListView<Code> codes) {
     const int before = codes.size();
     const auto left = [&] { return options.most_codes - (codes.size() - before); };
     const auto failed = [](Status status) {
@@ -121,14 +123,15 @@ inline Status look_for_codes(ImageView<const Gray8> src, const ReadCodesOptions&
         rules.rules.symbologies = bars;
         rules.most_codes = left();
         rules.effort = thorough ? 2 : 1;
-        doubt = read_bars(src, rules, scratch, text, codes);
+        doubt = read_bars(src, rules, bars_seen, scratch, text, codes);
         if (failed(doubt)) return doubt;
+    }
+    // Before what is dearest: no blurred bars were found in a photo of anything else.
+    if (thorough && !bars.empty() && codes.size() == before) {
+        if (Status s = read_blurred_bars(src, bars, left(), scratch, text, codes); failed(s)) return s;
     }
     if (data_matrix && left() > 0) {
         if (Status s = look_for_data_matrix(); failed(s)) return s;
-    }
-    if (thorough && !bars.empty() && codes.size() == before) {
-        if (Status s = read_blurred_bars(src, bars, left(), scratch, text, codes); failed(s)) return s;
     }
     return codes.size() > before ? Status::ok : doubt;
 }
@@ -140,9 +143,9 @@ inline Status read_codes(ImageView<const Gray8> src, const ReadCodesOptions& opt
     if (src.empty()) return Status::empty_image;
     if (options.symbologies.empty() || options.most_codes < 1) return Status::bad_argument;
     if (scratch.size() < read_codes_scratch(src.size())) return Status::scratch_too_small;
-    const Status first = detail::look_for_codes(src, options, false, scratch, text, codes);
+    const Status first = detail::look_for_codes(src, options, false, false, scratch, text, codes);
     if (!options.thorough || (first != Status::not_found && first != Status::undecided)) return first;
-    return detail::look_for_codes(src, options, true, scratch, text, codes);
+    return detail::look_for_codes(src, options, true, first == Status::not_found, scratch, text, codes);
 }
 
 }  // namespace fovea
