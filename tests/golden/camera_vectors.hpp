@@ -48,8 +48,9 @@ inline void camera_lens(Workspace&, Digest& digest) {
         const Pose<> pose{rotation_about(random_matrix<3, 1>(random)), random_matrix<3, 1>(random)};
         for (int k = 0; k < 8; ++k) {
             const auto place = random_matrix<3, 1>(random);
-            const Vector<2> pixel(Real::from_int(random.between(-100, 740)),
-                                  Real::from_int(random.between(-100, 580)));
+            const Real u = Real::from_int(random.between(-100, 740));
+            const Real v = Real::from_int(random.between(-100, 580));
+            const Vector<2> pixel(u, v);
             digest.add(project(camera, place), project(camera, pose, place));
             const Vector<2> point = point_of(camera, pixel);
             digest.add(distort(camera, point), pixel_of(camera, point), lens.undistort(point),

@@ -105,7 +105,7 @@ TEST(LensInverse, FindsEveryPlaceOfItsField) {
         ASSERT_GT(plain(lens.radius()), 0.3);
         for (int k = 0; k < 40; ++k) {
             // Up to the very edge.
-            const Vector<3> way(random_part(random), random_part(random), Real());
+            const auto way = random_matrix<2, 1>(random);
             const Real length = length_of(way);
             if (length.zero()) continue;
             const Real share = lens.radius() * (k < 4 ? Real::one() : random_part(random)) / length;
