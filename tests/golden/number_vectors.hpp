@@ -128,7 +128,7 @@ inline void linear_solvers(Workspace&, Digest& digest) {
         for (int k = 0; k < 9; ++k) {
             const std::int64_t row[3] = {tall(k, 0).rounded(20), tall(k, 1).rounded(40),
                                          tall(k, 2).rounded(30)};
-            sums.add(Span<const std::int64_t>(row), right[k].rounded(20));
+            sums.add(row, right[k].rounded(20));
         }
         digest.add(sums.solve(Span<Real>(&x[0], 3)), x);
     }

@@ -121,6 +121,44 @@ TEST(LensInverse, FindsEveryPlaceOfItsField) {
     }
 }
 
+/// Lenses that fold back and straighten again, which is seen only by looking closely.
+Camera<> folding(double k1, double k2, double k3) {
+    Camera<> camera;
+    camera.k1 = real_of(k1);
+    camera.k2 = real_of(k2);
+    camera.k3 = real_of(k3);
+    return camera;
+}
+
+TEST(LensInverse, ItsFieldEndsBeforeTheFirstFold) {
+    const double between = 1 + 1.0 / 128;
+    const double square = between * between;
+    const double grazing = 1 - 1.2e-4;
+    for (const Camera<>& camera :
+         {folding(-8889, 2.667e7, 0), folding(-0.495674, -0.446919, 0.47458), folding(-8.76, -748.5, 18483),
+          folding(-2 / (3 * square * grazing), 1 / (5 * square * square * grazing), 0)}) {
+        const LensInverse<> lens(camera);
+        // The slope as it is sampled densely.
+        const double k1 = plain(camera.k1);
+        const double k2 = plain(camera.k2);
+        const double k3 = plain(camera.k3);
+        double fold = 0;
+        for (; fold < 8; fold += 1e-5) {
+            const double s = fold * fold;
+            if (1 + s * (3 * k1 + s * (5 * k2 + s * 7 * k3)) <= 0) break;
+        }
+        ASSERT_LT(fold, 8);
+        EXPECT_LE(plain(lens.radius()), fold);
+        EXPECT_GE(plain(lens.radius()), fold - 2e-5);
+        for (int i = 0; i < 400; ++i) {
+            const Real r = lens.radius() * Real::from_ratio(i, 400);
+            const Result<Vector<2>> found = lens.undistort(distort(camera, Vector<2>(r, Real())));
+            ASSERT_TRUE(found);
+            ASSERT_NEAR(plain((*found)[0]), plain(r), 1e-9);
+        }
+    }
+}
+
 TEST(LensInverse, RefusesWhatNoPlaceIsSeenAt) {
     Camera<> camera;
     camera.k1 = Real::from_ratio(-1, 3);
@@ -131,19 +169,20 @@ TEST(LensInverse, RefusesWhatNoPlaceIsSeenAt) {
     for (const double x : {0.6668, 0.7, 1.0, 5.0, 1e6})
         EXPECT_EQ(lens.undistort(pixel(x, 0)).status(), Status::out_of_range) << x;
     EXPECT_EQ(lens.ray(pixel(-3, 4)).status(), Status::out_of_range);
+    camera.fx = Real();
+    EXPECT_EQ(LensInverse<>(camera).ray(pixel(0, 0)).status(), Status::bad_argument);
     camera.k1 = Real::from_int(-1000000);
     EXPECT_EQ(LensInverse<>(camera).undistort(pixel(0.5, 0)).status(), Status::out_of_range);
     EXPECT_EQ(*LensInverse<>(Camera<>()).undistort(pixel(0.5, 0.25)), pixel(0.5, 0.25));
 }
 
-TEST(LensInverse, IsTheSameInDouble) {
+TEST(Distort, IsTheSameInDouble) {
     Camera<double> camera{532.4, 530.2, 338.1, 238.8, -0.4175, 0.1891, 0.01, 0.0004, -0.0012};
     Camera<> same{real_of(532.4),  real_of(530.2), real_of(338.1),  real_of(238.8),  real_of(-0.4175),
                   real_of(0.1891), real_of(0.01),  real_of(0.0004), real_of(-0.0012)};
     for (double u = 0; u <= 640; u += 40)
         for (double v = 0; v <= 480; v += 40) {
             const Vector<2, double> place(u, v);
-            // Its own limit of 2^-54 is below what double can hold to.
             const Vector<2, double> seen = pixel_of(camera, distort(camera, point_of(camera, place)));
             const Vector<2> exact = pixel_of(same, distort(same, point_of(same, pixel(u, v))));
             ASSERT_NEAR(seen[0], plain(exact[0]), 1e-11);

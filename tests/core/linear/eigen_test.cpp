@@ -116,6 +116,23 @@ TEST(Svd, OfColumnsThatDependOnOthers) {
     svd_random<9, 9>(random, 5);
 }
 
+TEST(Svd, OfAllSmallWholeMatrices) {
+    // 3^9 of them: with every rank, and with columns that are alike to the last digit.
+    for (int number = 0; number < 19683; ++number) {
+        Matrix<3, 3> a;
+        for (int i = 0, rest = number; i < 9; ++i, rest /= 3) a(i / 3, i % 3) = Real::from_int(rest % 3 - 1);
+        Matrix<3, 3> u = a;
+        Matrix<3, 3> v;
+        Real values[3];
+        ASSERT_EQ(svd(u.view(), v.view(), Span<Real>(values)), Status::ok) << number;
+        expect_orthogonal<3>(v);
+        ASSERT_LE(
+            (exponent_of_difference<3, 3>(u * diagonal<3>(Span<const Real>(values)) * v.transposed(), a)),
+            -55)
+            << number;
+    }
+}
+
 TEST(Svd, ItsErrors) {
     Matrix<2, 3> wide;
     Matrix<3, 3> v;
@@ -155,6 +172,18 @@ TEST(NearestRotation, IsARotationAndNoOtherIsNearer) {
     EXPECT_EQ(nearest_rotation(Matrix<3, 3>(one, one, one, one, one, one, one, one, one)).status(),
               Status::degenerate);
     EXPECT_EQ(*nearest_rotation(Matrix<3, 3>::identity() * Real::from_int(5)), (Matrix<3, 3>::identity()));
+    // A mirror has many rotations that are as near; one that is less a mirror in one direction has one.
+    const auto diagonal_of = [](int x, int y, int z) {
+        Matrix<3, 3> a;
+        a(0, 0) = Real::from_int(x);
+        a(1, 1) = Real::from_int(y);
+        a(2, 2) = Real::from_int(z);
+        return a;
+    };
+    EXPECT_EQ(nearest_rotation(diagonal_of(1, 1, -1)).status(), Status::degenerate);
+    EXPECT_EQ(nearest_rotation(-Matrix<3, 3>::identity()).status(), Status::degenerate);
+    EXPECT_EQ(*nearest_rotation(diagonal_of(3, 2, -1)), (Matrix<3, 3>::identity()));
+    EXPECT_EQ(*nearest_rotation(diagonal_of(3, 2, 0)), (Matrix<3, 3>::identity()));
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ TEST(ParseReal, RefusesEverythingElse) {
           "0." + std::string(1001, '0') + "1e1001", std::string(3000, '9') + "e-2990"})
         EXPECT_EQ(parsed(text).status(), Status::out_of_range) << text;
     EXPECT_TRUE(parsed(std::string(500, '0') + "1"));
+    EXPECT_EQ(*parsed("0." + std::string(200000, '0') + "e7"), Real());
     EXPECT_TRUE(parsed("1e-60"));
     EXPECT_TRUE(parsed("9.99e59"));
     EXPECT_TRUE(parsed(std::string(40, '9')));

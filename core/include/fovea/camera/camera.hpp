@@ -37,7 +37,7 @@ struct Camera {
 template <class Scalar>
 constexpr Vector<2, Scalar> distort(const Camera<Scalar>& camera, const Vector<2, Scalar>& point);
 
-/// The pixel of a point at distance 1, and back; the lens is not part of it.
+/// The pixel of a point at distance 1, and back; the lens is not part of it. Back, focal lengths are not 0.
 template <class Scalar>
 constexpr Vector<2, Scalar> pixel_of(const Camera<Scalar>& camera, const Vector<2, Scalar>& point) {
     return Vector<2, Scalar>(camera.fx * point[0] + camera.cx, camera.fy * point[1] + camera.cy);

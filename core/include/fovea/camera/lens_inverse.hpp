@@ -6,6 +6,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/camera/camera.hpp>
 #include <fovea/linear/matrix.hpp>
+#include <fovea/number/integer.hpp>
 #include <fovea/number/scalar.hpp>
 
 namespace fovea {
@@ -15,17 +16,19 @@ namespace fovea {
 /// The inverse of distort(), inside the field in which there is one.
 ///
 /// A lens model is a polynomial, and what it says far outside of what was calibrated is nothing: from some
-/// radius on it folds back, and two ways lead to the same pixel. The field is the largest disc in which the
-/// slope of the model is positive in every direction; there the inverse is unique.
+/// radius on it folds back, and two ways lead to the same pixel. The field is a disc in which the slope of
+/// the model is above 0 in every direction; there the inverse is unique.
 ///
-/// Range   the field reaches to radius 8 at most, which is 83 degrees off the axis
+/// Range   the field reaches to radius 8 at most, which is 83 degrees off the axis. With tangential terms it
+///         may end before the last place that has an inverse
 /// Source  the slope is symmetric, so the model is the gradient of a potential that is convex in the field,
 ///         and damped Newton steps lead down to the one place. The slope is at least the radial one less 6
-///         |p| r: the tangential part's is 4 p x +- 2 |p| |x|
+///         |p| r: the tangential part's is 4 p x +- 2 |p| |x|. Radial slopes are polynomials of the squared
+///         radius, and between two radii above the least of their four Bernstein coefficients there
 template <class Scalar = Real>
 class LensInverse {
 public:
-    /// Looks for the field: about 600 slopes.
+    /// Looks for the field: some 600 strides of the radius, at most 4096.
     constexpr explicit LensInverse(const Camera<Scalar>& camera);
 
     /// Of the field, at distance 1.
@@ -34,18 +37,19 @@ public:
     /// The point at distance 1 that distort() puts to where this one is.
     ///
     /// Rounding  distort() of the answer is within 2^-54 of the point, or of its length where that is above 1
-    /// Time      at most 60 steps; four or five inside of the picture of a usual lens
+    /// Time      at most 60 steps of up to 40 halvings; four or five steps inside of the picture of a usual
+    ///           lens, some ten times as long for a place that is not seen
     /// Errors    out_of_range if no place of the field is seen there
     constexpr Result<Vector<2, Scalar>> undistort(const Vector<2, Scalar>& point) const;
 
     /// The direction at z = 1 from which a pixel is seen.
     ///
-    /// Errors  out_of_range as above
+    /// Errors  bad_argument for a camera without focal lengths; out_of_range as above
     constexpr Result<Vector<3, Scalar>> ray(const Vector<2, Scalar>& pixel) const;
 
 private:
-    /// The least slope at a radius.
-    constexpr Scalar slope(Scalar radius) const;
+    /// Whether the slope is above 0 between two radii.
+    constexpr bool sound(Scalar from, Scalar to) const;
     /// The step of Newton's from a place whose image is off by (dx, dy).
     constexpr Vector<2, Scalar> step(const Vector<2, Scalar>& place, const Vector<2, Scalar>& off) const;
 
@@ -58,32 +62,39 @@ private:
 template <class Scalar>
 constexpr LensInverse<Scalar>::LensInverse(const Camera<Scalar>& camera)
     : camera_(camera), radius_(scalar_of<Scalar>(0)) {
-    const Scalar zero = scalar_of<Scalar>(0);
-    const Scalar stride = scalar_of<Scalar>(1, -6);
-    for (int i = 1; i <= 512; ++i) {
-        const Scalar next = scalar_of<Scalar>(i, -6);
-        if (!(zero < slope(next))) break;
-        radius_ = next;
-    }
-    if (radius_ == scalar_of<Scalar>(8)) return;
-    // Where it ends between two strides.
-    for (int bit = 1; bit <= 30; ++bit) {
-        const Scalar next = radius_ + scale(stride, -bit);
-        if (zero < slope(next)) radius_ = next;
+    const Scalar most = scalar_of<Scalar>(8);
+    int bits = 6;
+    for (int i = 0; i < 4096 && bits <= 30 && radius_ < most; ++i) {
+        const Scalar next = radius_ + scalar_of<Scalar>(1, -bits);
+        const bool good = sound(radius_, next);
+        if (good) radius_ = next;
+        // Smaller strides where it is not certain, and back to the first.
+        bits = good ? maximum(bits - 1, 6) : bits + 1;
     }
 }
 
 template <class Scalar>
-constexpr Scalar LensInverse<Scalar>::slope(Scalar radius) const {
+constexpr bool LensInverse<Scalar>::sound(Scalar from, Scalar to) const {
     const Scalar one = scalar_of<Scalar>(1);
-    const Scalar s = radius * radius;
-    // Along the radius, and across it.
-    const Scalar along =
-        one + s * (scalar_of<Scalar>(3) * camera_.k1 +
-                   s * (scalar_of<Scalar>(5) * camera_.k2 + s * scalar_of<Scalar>(7) * camera_.k3));
-    const Scalar across = one + s * (camera_.k1 + s * (camera_.k2 + s * camera_.k3));
+    const Scalar s = from * from;
+    const Scalar t = to * to;
+    const Scalar third = (t - s) / scalar_of<Scalar>(3);
     const Scalar tangential = square_root(camera_.p1 * camera_.p1 + camera_.p2 * camera_.p2);
-    return (along < across ? along : across) - scalar_of<Scalar>(6) * tangential * radius;
+    const Scalar least = scalar_of<Scalar>(6) * tangential * to;
+    // 1 + a s + b s^2 + c s^3 from s to t.
+    const auto above = [&](Scalar a, Scalar b, Scalar c) {
+        const auto value = [&](Scalar x) { return one + x * (a + x * (b + x * c)); };
+        const auto rise = [&](Scalar x) {
+            return third * (a + x * (scale(b, 1) + x * scalar_of<Scalar>(3) * c));
+        };
+        const Scalar first = value(s);
+        const Scalar last = value(t);
+        return least < first && least < first + rise(s) && least < last - rise(t) && least < last;
+    };
+    // Along the radius, and across it.
+    return above(scalar_of<Scalar>(3) * camera_.k1, scalar_of<Scalar>(5) * camera_.k2,
+                 scalar_of<Scalar>(7) * camera_.k3) &&
+           above(camera_.k1, camera_.k2, camera_.k3);
 }
 
 template <class Scalar>
@@ -135,6 +146,8 @@ constexpr Result<Vector<2, Scalar>> LensInverse<Scalar>::undistort(const Vector<
 
 template <class Scalar>
 constexpr Result<Vector<3, Scalar>> LensInverse<Scalar>::ray(const Vector<2, Scalar>& pixel) const {
+    const Scalar zero = scalar_of<Scalar>(0);
+    if (camera_.fx == zero || camera_.fy == zero) return Status::bad_argument;
     const Result<Vector<2, Scalar>> place = undistort(point_of(camera_, pixel));
     if (!place) return place.status();
     return Vector<3, Scalar>((*place)[0], (*place)[1], scalar_of<Scalar>(1));

@@ -34,6 +34,8 @@ struct ReadBarsOptions {
 /// once for every way to see them. Photos without a code take 3000, and would take 13000 at most; those that
 /// are read take 9300 at most.
 inline constexpr int bar_work = 10240;
+/// The least of it: codes of modules of one pixel are small, and want every way to see them.
+inline constexpr std::int64_t least_bar_work = std::int64_t{5} << 20;
 
 /// Scratch bytes that read_bars() needs.
 constexpr std::int64_t read_bars_scratch(Size size);
@@ -48,8 +50,8 @@ constexpr std::int64_t read_bars_scratch(Size size);
 /// Errors  empty_image; bad_argument; scratch_too_small; not_found; undecided where lines read something on
 ///         which not enough of them agree; buffer_too_small, capacity_exceeded with the first codes in the
 ///         list. Text and list are appended to, and untouched where nothing was read
-/// Time    bounded: at most about a thousand lines, and bar_work units of work for
-///         each pixel of width and height; what is read with these is told
+/// Time    bounded: at most about a thousand lines, and bar_work units of work for each pixel of width and
+///         height, and least_bar_work for small images; what is read with these is told
 inline Status read_bars(ImageView<const Gray8> src, const ReadBarsOptions& options,
                         Span<std::uint8_t> scratch, CodeText& text, ListView<Code> codes);
 
@@ -109,7 +111,7 @@ private:
                   most_bar_candidates) {
         sharp_ = arena.take_unset<std::int16_t>(most_samples(src.size()));
         fields_scratch_ = arena.take_unset<std::uint8_t>(bar_fields_scratch(src.size()));
-        reader_.limit(WorkBudget(most_samples(src.size()) * bar_work));
+        reader_.limit(WorkBudget(maximum(most_samples(src.size()) * bar_work, least_bar_work)));
     }
     bool done() const { return reader_.settled() >= options_.most_codes || reader_.spent(); }
     bool is_settled(int which) const { return reader_.candidates()[which].settled; }

@@ -137,8 +137,9 @@ private:
     /// fewest_thin, and of a thousand that were read in cluttered photos 18 had fewer than usual_thin.
     static constexpr int fewest_thin = 2;
     static constexpr int usual_thin = 12;
-    /// For images of few pixels, in units of work.
-    static constexpr int least_work = 1 << 16;
+    /// For images of few pixels, in units of work: for a quick look, and for a thorough one.
+    static constexpr int least_quick_work = 1 << 16;
+    static constexpr int least_work = 1 << 17;
 
     /// The image becomes means of two by two pixels.
     void halve() {
@@ -163,7 +164,8 @@ private:
     void read_polarity(bool inverted) {
         field_ = CodeField(image_, inverted);
         const bool quick = options_.effort == ReadDataMatrixOptions::Effort::quick;
-        budget_ = WorkBudget(image_.size(), quick ? data_matrix_quick_work : data_matrix_work, least_work);
+        budget_ = quick ? WorkBudget(image_.size(), data_matrix_quick_work, least_quick_work)
+                        : WorkBudget(image_.size(), data_matrix_work, least_work);
         // An eighth more for what the row finds in which the work ends.
         const std::int64_t more = budget_.left() / 8;
         passed_.clear();

@@ -34,6 +34,8 @@ template <class Scalar>
 constexpr Status solve_with_ldlt(MatrixView<Scalar> factors, Span<Scalar> b);
 
 /// Solves a x = b for a symmetric positive definite a: both of the above.
+///
+/// Errors  size_mismatch; degenerate as factor_ldlt() is, with a used up and b untouched
 template <class Scalar>
 constexpr Status solve_ldlt(MatrixView<Scalar> a, Span<Scalar> b);
 

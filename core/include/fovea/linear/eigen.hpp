@@ -16,6 +16,7 @@ namespace fovea {
 /// is left to the calculation, which is the same everywhere.
 ///
 /// Shapes  both square, of one size
+/// Overlap none
 /// Time    at most 16 sweeps over all pairs; 9 x 9 needs 7
 /// Errors  size_mismatch; degenerate if 16 sweeps were too few, which no matrix of the tests comes near
 /// Source  cyclic Jacobi rotations; Golub and Van Loan, "Matrix Computations", section 8.5

@@ -14,6 +14,7 @@ namespace fovea {
 /// Solves a x = b for every column of b; x takes the place of b, and a is used up.
 ///
 /// Shapes  a square, b with as many rows
+/// Overlap none
 /// Errors  size_mismatch; degenerate where a pivot, the largest that is left in its column, is 0: then a and
 ///         b are as far as the elimination came. A matrix without an inverse whose pivots are rounded, and so
 ///         only nearly 0, is not noticed: solve_least_squares() notices it

@@ -3,9 +3,12 @@
 // Least squares by reflections: the way that keeps the most digits where equations are many and rounded.
 #pragma once
 
+#include <cstdint>
+
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
 #include <fovea/linear/matrix.hpp>
+#include <fovea/number/integer.hpp>
 #include <fovea/number/scalar.hpp>
 
 namespace fovea {
@@ -17,7 +20,7 @@ namespace fovea {
 ///
 /// Shapes  a has at least as many rows as columns, b as many elements as a has rows
 /// Errors  size_mismatch; degenerate where a column is a combination of those before it: less than 2^-48 of
-///         its length is left. Then a and b are as far as it came
+///         its length is left, or more by what rows beyond 32767 are. Then a and b are as far as it came
 /// Source  Householder reflections; Golub and Van Loan, "Matrix Computations", section 5.3.2
 template <class Scalar>
 constexpr Status solve_least_squares(MatrixView<Scalar> a, Span<Scalar> b);
@@ -41,12 +44,14 @@ constexpr Status solve_least_squares(MatrixView<Scalar> a, Span<Scalar> b) {
     const int n = a.columns();
     if (m < n || b.size() != m) return Status::size_mismatch;
     const Scalar zero = scalar_of<Scalar>(0);
+    // Sums over very many rows lose more digits.
+    const int lost_bits = maximum(32 - leading_zeros(static_cast<std::uint32_t>(m)) - 15, 0);
     for (int j = 0; j < n; ++j) {
         // What stands above is part of the column's length, which reflections do not change.
         const Scalar square = detail::square_of_column(a, j, j);
         Scalar whole = square;
         for (int r = 0; r < j; ++r) whole = whole + a(r, j) * a(r, j);
-        if (!(scale(whole, -96) < square)) return Status::degenerate;
+        if (!(scale(whole, 2 * lost_bits - 96) < square)) return Status::degenerate;
 
         const Scalar length = square_root(square);
         const Scalar head = a(j, j);

@@ -28,9 +28,9 @@ inline constexpr std::uint64_t real_top = std::uint64_t{1} << 63;
 ///
 /// Range     mantissa 0, or 2^63 up to 2^64; exponents of results stay within 2^28: the user states why they
 ///           do. There is one zero, no infinity, and no state of error
-/// Rounding  toward 0 (magnitudes are chopped), which keeps every result within 2^-63 of the true one: a
-///           product, a quotient and a root are the true magnitude cut after 64 digits (the root of a number
-///           with an odd exponent loses the last of its digits first); a sum shifts the smaller number right
+/// Rounding  magnitudes are cut, which keeps every result within 2^-63 of the true one, roots within 1.5 *
+///           2^-63: a product and a quotient are the true magnitude cut after 64 digits; so is a root, but of
+///           an even exponent() the last digit is left out before; a sum shifts the smaller number right
 ///           until the exponents agree, keeps one digit more where signs differ, and then cuts. Digits do not
 ///           depend on signs or on the order of the operands
 /// Layout    12 bytes; all of them 0 is 0
@@ -103,6 +103,7 @@ public:
     constexpr Real scaled(int bits) const {
         Real result = *this;
         if (!zero()) result.scale_ += static_cast<std::uint32_t>(bits) << 1;
+        FOVEA_ASSERT(result.exponent() > -detail::real_bias || zero());
         return result;
     }
     /// The root of the magnitude.
@@ -217,6 +218,8 @@ constexpr Real operator*(const Real& a, const Real& b) {
     // The sum of both scales, in which two signs would carry.
     const std::uint32_t scale =
         a.scale_ + b.scale_ - 2 * (a.scale_ & b.scale_ & 1) - 2 * std::uint32_t{detail::real_bias};
+    FOVEA_ASSERT(product.high == 0 || (a.exponent() + b.exponent() > -detail::real_bias &&
+                                       a.exponent() + b.exponent() < detail::real_bias - 1));
     if (product.high >> 63 != 0) return {product.high, scale + 2};
     if (product.high == 0) return {};
     return {product.high << 1 | product.low >> 63, scale};

@@ -155,8 +155,9 @@ constexpr Result<Real> parse_real(Span<const char> text) {
         const int digit = text[at] - '0';
         // Zeros in front do not count, but for the power.
         if (digits > 0 || digit != 0) ++digits;
-        if (point) --power;
-        too_long = too_long || digits > max_real_digits || power < -1000;
+        if (point) power = maximum(power - 1, -100000);
+        // A number of which so much is 0 is out of range whatever its exponent says; 0 itself is not.
+        too_long = too_long || digits > max_real_digits || (digits > 0 && power < -1000);
         if (too_long) {
             digits = 0;
             power = 0;
