@@ -71,7 +71,7 @@ def main():
         if grown and not options.because:
             sys.exit("\n".join(f"{before[n]} -> {costs[n]} {n}" for n in grown) + "\nchip: these have grown: --because REASON")
         path.parent.mkdir(exist_ok=True)
-        path.write_text("# Instructions for a picture of 320x240, or of the size in the name.\n" + "".join(f"{costs[n]} {n}\n" for n in costs))
+        path.write_text("# Instructions for a picture of 320x240 or of the size in the name; of geometry for all calls.\n" + "".join(f"{costs[n]} {n}\n" for n in costs))
         if grown:
             with (options.tables / "grown.txt").open("a") as file:
                 file.writelines(f"{options.lane}: {n} {before[n]} -> {costs[n]}: {options.because}\n" for n in grown)

@@ -28,7 +28,7 @@ namespace fovea {
 template <class Scalar = Real>
 class LensInverse {
 public:
-    /// Looks for the field: some 600 strides of the radius, at most 4096.
+    /// Looks for the field: 512 strides of the radius, more where it ends, at most 4096.
     constexpr explicit LensInverse(const Camera<Scalar>& camera);
 
     /// Of the field, at distance 1.
@@ -38,7 +38,7 @@ public:
     ///
     /// Rounding  distort() of the answer is within 2^-54 of the point, or of its length where that is above 1
     /// Time      at most 60 steps of up to 40 halvings; four or five steps inside of the picture of a usual
-    ///           lens, some ten times as long for a place that is not seen
+    ///           lens, ten to twenty times as long for a place that is not seen
     /// Errors    out_of_range if no place of the field is seen there
     constexpr Result<Vector<2, Scalar>> undistort(const Vector<2, Scalar>& point) const;
 

@@ -16,9 +16,9 @@ namespace fovea {
 /// is left to the calculation, which is the same everywhere.
 ///
 /// Shapes  both square, of one size
+/// Time    at most 16 sweeps over all pairs
 /// Overlap none
-/// Time    at most 16 sweeps over all pairs; 9 x 9 needs 7
-/// Errors  size_mismatch; degenerate if 16 sweeps were too few, which no matrix of the tests comes near
+/// Errors  size_mismatch; degenerate if 16 sweeps were too few; no matrix of the tests needs more than 8
 /// Source  cyclic Jacobi rotations; Golub and Van Loan, "Matrix Computations", section 8.5
 template <class Scalar>
 constexpr Status symmetric_eigen(MatrixView<Scalar> a, MatrixView<Scalar> vectors);

@@ -24,7 +24,7 @@ namespace fovea {
 ///         elements
 /// Time    at most 16 sweeps over all pairs
 /// Overlap none
-/// Errors  size_mismatch; degenerate if 16 sweeps were too few, which no matrix of the tests comes near
+/// Errors  size_mismatch; degenerate if 16 sweeps were too few; no matrix of the tests needs more than 8
 /// Source  one-sided Jacobi rotations; Golub and Van Loan, "Matrix Computations", section 8.6.3
 template <class Scalar>
 constexpr Status svd(MatrixView<Scalar> a, MatrixView<Scalar> v, Span<Scalar> values);
