@@ -160,7 +160,7 @@ Status PlanarSystem<Scalar>::linearise() {
             const Vector<2, Scalar> off = seen.pixel - pixel_seen<Scalar>(points.seen[i]);
             for (int row = 0; row < 2; ++row) {
                 terms_.put(seen, row, row_.data());
-                equations_.add(view, row_, seen.by_pose(row, arm), off[row]);
+                equations_.add(view, row_, by_pose(seen.by_point.row(row), arm), off[row]);
             }
         }
     }

@@ -29,16 +29,6 @@ struct ProjectionDerivatives {
     Matrix<2, camera_terms, Scalar> by_camera;
     /// By the point in camera coordinates.
     Matrix<2, 3, Scalar> by_point;
-
-    /// A row by the pose of the point, whose world coordinates were turned to this vector, without the
-    /// translation: by axis of a rotation_about() in front of the pose's, then by translation.
-    constexpr Vector<6, Scalar> by_pose(int row, const Vector<3, Scalar>& turned) const {
-        const Scalar a = by_point(row, 0);
-        const Scalar b = by_point(row, 1);
-        const Scalar c = by_point(row, 2);
-        return Vector<6, Scalar>(turned[1] * c - turned[2] * b, turned[2] * a - turned[0] * c,
-                                 turned[0] * b - turned[1] * a, a, b, c);
-    }
 };
 
 /// The pixel of a point in camera coordinates, as project() has it, with its derivatives.
@@ -49,7 +39,15 @@ template <class Scalar>
 constexpr Status project_derivatives(const Camera<Scalar>& camera, const Vector<3, Scalar>& point,
                                      ProjectionDerivatives<Scalar>& result);
 
-/// A pose moved by a step of the six unknowns of by_pose().
+/// A row by the pose of the point, from the row by the point: by the axis of a rotation_about() in front of
+/// the pose's, then by its translation. turned is what the pose's rotation makes of the world's point.
+template <class Scalar>
+constexpr Vector<6, Scalar> by_pose(const Vector<3, Scalar>& by_point, const Vector<3, Scalar>& turned) {
+    const Vector<3, Scalar> by_axis = cross(turned, by_point);
+    return Vector<6, Scalar>(by_axis[0], by_axis[1], by_axis[2], by_point[0], by_point[1], by_point[2]);
+}
+
+/// A pose after a step of the six unknowns of by_pose().
 template <class Scalar>
 constexpr Pose<Scalar> moved(const Pose<Scalar>& pose, const Vector<6, Scalar>& step) {
     return {rotation_about(Vector<3, Scalar>(step[0], step[1], step[2])) * pose.rotation,
