@@ -46,7 +46,7 @@ struct PlanarCalibration {
 template <class Scalar = Real>
 constexpr std::int64_t calibrate_planar_scratch(int views) {
     const std::int64_t scalars = block_equations_scratch<6>(camera_terms, views) + camera_terms;
-    return scalars * static_cast<int>(sizeof(Scalar)) +
+    return scalars * static_cast<int>(sizeof(Scalar)) + block_equations_words<6>(camera_terms) * 8 + 8 +
            std::int64_t{views} * static_cast<int>(sizeof(Pose<Scalar>)) +
            2 * static_cast<int>(alignof(Scalar));
 }
@@ -83,12 +83,12 @@ template <class Scalar>
 class PlanarSystem {
 public:
     PlanarSystem(Span<const PlanarView> views, const IntrinsicsOptions& options, Span<Pose<Scalar>> poses,
-                 Span<Scalar> row, Span<Scalar> equations)
+                 Span<Scalar> row, Span<Scalar> equations, Span<std::int64_t> words)
         : views_(views),
           terms_(options),
           poses_(poses),
           row_(row.first(terms_.count())),
-          equations_(terms_.count(), static_cast<int>(views.size()), equations) {}
+          equations_(terms_.count(), static_cast<int>(views.size()), equations, words) {}
 
     /// The state to start from.
     CalibrationVerdict start(Size picture);
@@ -166,6 +166,7 @@ Status PlanarSystem<Scalar>::linearise() {
             }
         }
     }
+    equations_.finish();
     return Status::ok;
 }
 
@@ -216,8 +217,9 @@ CalibrationVerdict calibrate_planar(Span<const PlanarView> views, Size picture,
     Arena arena(scratch);
     const auto poses = arena.take<Pose<Scalar>>(count);
     const auto row = arena.take<Scalar>(camera_terms);
+    const auto words = arena.take<std::int64_t>(block_equations_words<6>(terms.count()));
     const auto room = arena.take<Scalar>(block_equations_scratch<6>(terms.count(), count));
-    detail::PlanarSystem<Scalar> system(views, options, poses, row, room);
+    detail::PlanarSystem<Scalar> system(views, options, poses, row, room, words);
     verdict = system.start(picture);
     if (!verdict.ok()) return verdict;
 
