@@ -224,10 +224,8 @@ CalibrationVerdict calibrate_planar(Span<const PlanarView> views, Size picture,
     if (!verdict.ok()) return verdict;
 
     PlanarCalibration<Scalar> result;
-    Status status = detail::descend(system, LevenbergMarquardtOptions(), result.refinement);
-    Scalar gain = scalar_of<Scalar>(0);
-    if (status == Status::ok) status = system.solve(detail::undamped, gain);
-    if (status != Status::ok) return {CalibrationProblem::parallel_views, -1};
+    const CalibrationProblem problem = detail::refine<Scalar>(system, terms, poses, result.refinement);
+    if (problem != CalibrationProblem::none) return {problem, -1};
     const std::int64_t points = system.points();
     const std::int64_t spare = 2 * points - terms.count() - std::int64_t{6} * count;
     const Scalar variance = result.refinement.cost / scalar_of<Scalar>(spare);
@@ -237,8 +235,7 @@ CalibrationVerdict calibrate_planar(Span<const PlanarView> views, Size picture,
     result.deviation =
         terms.deviations<Scalar>([&](int i) { return equations.shared_variance(i) * variance; });
     result.rms = square_root(result.refinement.cost / scalar_of<Scalar>(points));
-    if (!detail::FreeTerms::determined(result.camera, result.deviation) ||
-        (terms.of_pinhole() > 2 && detail::all_parallel<Scalar>(poses)))
+    if (!detail::FreeTerms::determined(result.camera, result.deviation))
         return {CalibrationProblem::parallel_views, -1};
     if (!result.refinement.converged) return {CalibrationProblem::no_convergence, -1};
 

@@ -283,10 +283,8 @@ CalibrationVerdict calibrate_stereo(Span<const StereoView> views, const Calibrat
     if (!verdict.ok()) return verdict;
 
     StereoCalibration<Scalar> result;
-    Status status = detail::descend(system, LevenbergMarquardtOptions(), result.refinement);
-    Scalar gain = scalar_of<Scalar>(0);
-    if (status == Status::ok) status = system.solve(detail::undamped, gain);
-    if (status != Status::ok) return {CalibrationProblem::parallel_views, -1};
+    const CalibrationProblem problem = detail::refine<Scalar>(system, terms, poses, result.refinement);
+    if (problem != CalibrationProblem::none) return {problem, -1};
     const Scalar variance =
         result.refinement.cost / scalar_of<Scalar>(2 * points - shared - std::int64_t{6} * count);
     auto& equations = system.equations();
@@ -305,8 +303,7 @@ CalibrationVerdict calibrate_stereo(Span<const StereoView> views, const Calibrat
         [&](int i) { return equations.shared_variance(6 + terms.count() + i) * variance; });
     result.rms = square_root(result.refinement.cost / scalar_of<Scalar>(points));
     bool open = !detail::FreeTerms::determined(result.left, result.left_deviation) ||
-                !detail::FreeTerms::determined(result.right, result.right_deviation) ||
-                (terms.of_pinhole() > 2 && detail::all_parallel<Scalar>(poses));
+                !detail::FreeTerms::determined(result.right, result.right_deviation);
     for (int i = 0; i < 3; ++i)
         if (!(result.rotation_deviation[i] < scalar_of<Scalar>(1, -3))) open = true;
     if (open) return {CalibrationProblem::parallel_views, -1};
