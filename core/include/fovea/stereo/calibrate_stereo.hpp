@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 
 #include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
