@@ -31,8 +31,8 @@ inline constexpr int residuals_together = 16;
 /// cube.
 ///
 /// Scratch   block_equations_scratch<Own>(shared, views) scalars, block_equations_words<Own>(shared) words
-/// Rounding  sums in the order in which residuals are added. Of Real, the sums over 16 residuals of a view are
-///           exact, of derivatives that are rounded to 2^-61 of the largest by the same unknown among them
+/// Rounding  sums in the order in which residuals are added. Of Real, the sums over 16 residuals of a view
+///           are exact, of derivatives that are rounded to 2^-61 of the largest by the same unknown among them
 /// Source    Schur complement; Triggs et al., "Bundle Adjustment - A Modern Synthesis", 1999, section 6.1
 template <int Own, class Scalar = Real>
 class BlockEquations {
@@ -79,7 +79,8 @@ private:
     constexpr void add_products(int view, Span<const Scalar> by_shared, const Vector<Own, Scalar>& by_own,
                                 Scalar residual);
 
-    /// Elements of a view: the upper triangle of its matrix, the products with what is shared, gradient, step.
+    /// Elements of a view: the upper triangle of its matrix, the products with what is shared, gradient,
+    /// step.
     constexpr Span<Scalar> part(int view, int from, int count) const {
         const int size = triangle + Own * (shared_ + 2);
         return parts_.from(std::int64_t{size} * view + from).first(count);
