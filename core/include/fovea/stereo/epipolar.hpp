@@ -152,8 +152,9 @@ constexpr Result<Vector<3, Scalar>> square_to_rows(const Matrix<3, 3, Scalar>& a
 template <class Scalar>
 constexpr Result<Matrix<3, 3, Scalar>> fundamental_matrix(const StereoCamera<Scalar>& cameras) {
     const Scalar zero = scalar_of<Scalar>(0);
-    for (const Camera<Scalar>* camera : {&cameras.left, &cameras.right})
-        if (camera->fx == zero || camera->fy == zero) return Status::bad_argument;
+    if (cameras.left.fx == zero || cameras.left.fy == zero || cameras.right.fx == zero ||
+        cameras.right.fy == zero)
+        return Status::bad_argument;
     return detail::of_length_one(
         detail::in_pixels(essential_matrix(cameras.right_from_left), cameras.left, cameras.right));
 }

@@ -114,11 +114,11 @@ constexpr Status rays_of(const LensInverse<Scalar>& lens, Span<const SubPixelPoi
                          Span<Vector<2, NonDeduced<Scalar>>> rays) {
     if (rays.size() != pixels.size()) return Status::size_mismatch;
     // Once to see that all of them have rays, so that nothing is written if one has none.
-    for (const bool write : {false, true})
+    for (int write = 0; write < 2; ++write)
         for (std::ptrdiff_t i = 0; i < pixels.size(); ++i) {
             const Result<Vector<3, Scalar>> ray = lens.ray(vector_of<Scalar>(pixels[i]));
             if (!ray) return ray.status();
-            if (write) rays[i] = Vector<2, Scalar>((*ray)[0], (*ray)[1]);
+            if (write != 0) rays[i] = Vector<2, Scalar>((*ray)[0], (*ray)[1]);
         }
     return Status::ok;
 }

@@ -222,11 +222,13 @@ constexpr Result<Vector<2, Scalar>> mean_of_corners(const LensInverse<Scalar>& l
 template <class Scalar>
 constexpr Status check_rectify(const StereoCamera<Scalar>& cameras, Size size, Size new_size) {
     if (size.empty()) return Status::empty_image;
-    for (const int side : {size.width, size.height, new_size.width, new_size.height})
-        if (side > max_image_side) return Status::image_too_large;
+    if (size.width > max_image_side || size.height > max_image_side || new_size.width > max_image_side ||
+        new_size.height > max_image_side)
+        return Status::image_too_large;
     const Scalar zero = scalar_of<Scalar>(0);
-    for (const Camera<Scalar>* camera : {&cameras.left, &cameras.right})
-        if (!(zero < camera->fx) || !(zero < camera->fy)) return Status::bad_argument;
+    if (!(zero < cameras.left.fx) || !(zero < cameras.left.fy) || !(zero < cameras.right.fx) ||
+        !(zero < cameras.right.fy))
+        return Status::bad_argument;
     return Status::ok;
 }
 
