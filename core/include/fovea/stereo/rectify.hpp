@@ -196,8 +196,13 @@ constexpr Status zoom(const StereoCamera<Scalar>& cameras, const LensInverse<Sca
         return Status::out_of_range;
     Scalar least = zero;
     Scalar most = zero;
-    Status status = add_border(left, found.left, size, picture, least, most);
-    if (status == Status::ok) status = add_border(right, found.right, size, picture, least, most);
+    // Without lens the border is straight from corner to corner.
+    const auto add = [&](const Camera<Scalar>& one, const LensInverse<Scalar>& lens,
+                         const Matrix<3, 3, Scalar>& rotation) {
+        return add_border(lens, rotation, size, without_lens(one) ? 64 : 1, picture, least, most);
+    };
+    Status status = add(cameras.left, left, found.left);
+    if (status == Status::ok) status = add(cameras.right, right, found.right);
     if (status != Status::ok) return status;
     camera.fx = camera.fy = valid ? most : least;
     return camera.fx == zero ? Status::out_of_range : Status::ok;
