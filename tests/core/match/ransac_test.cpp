@@ -44,6 +44,19 @@ TEST(RansacTest, FindsTheNumberThatMostAreNear) {
     EXPECT_TRUE(found->certain);
     EXPECT_LE(found->samples, 20);
 
+    // Of equals, the first that is drawn: each agrees with itself alone.
+    RansacOptions alone;
+    alone.enough = 1;
+    std::ptrdiff_t first = -1;
+    const auto noted = [&](const std::ptrdiff_t(&chosen)[1]) {
+        if (first < 0) first = chosen[0];
+        return Result<std::ptrdiff_t>(chosen[0]);
+    };
+    const auto kept = ransac<1, std::ptrdiff_t>(
+        12, alone, noted, [](std::ptrdiff_t model, std::ptrdiff_t i) { return model == i; });
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->model, first);
+
     RansacOptions options;
     options.enough = 7;
     EXPECT_TRUE((ransac<1, int>(12, options, make, agrees)));
@@ -130,7 +143,7 @@ Matches matches(Random& random, const double (&h)[9], int count, int wrong) {
     return all;
 }
 
-constexpr double tilted[9] = {0.9, -0.2, 60, 0.15, 1.1, -30, 2e-4, -3e-4, 1};
+constexpr double tilted[9] = {0.9, -0.2, 60, 0.15, 1.1, 30, 1e-3, 2e-3, 1};
 constexpr double turned[9] = {0.9, -0.2, 60, 0.2, 0.9, -30, 0, 0, 1};
 
 TEST(RansacTransformsTest, FindThePairsThatBelongTogether) {
@@ -184,6 +197,20 @@ TEST(RansacTransformsTest, AreThoseOfTheRightPairsWhereNoneIsWrong) {
     ASSERT_TRUE(robust && plain);
     EXPECT_EQ(robust->agreeing, 40);
     EXPECT_EQ(robust->transform, *plain);
+}
+
+TEST(RansacTransformsTest, ToleranceIsInPixelsWhateverTheDivisor) {
+    // At the origin the divisor is half of what it is at the mean: an error of 1.5 px is no smaller there.
+    Random random(8);
+    Matches all = matches(random, tilted, 40, 0);
+    const SubPixel off = SubPixel::from_ratio(3, 2);
+    all.from[0] = {};
+    all.to[0] = {SubPixel::from_int(60) + off, SubPixel::from_int(30)};
+    const auto fit =
+        fit_homography_ransac(all.sources(), all.targets(), SubPixel::from_int(1), {}, all.flags());
+    ASSERT_TRUE(fit);
+    EXPECT_EQ(fit->agreeing, 39);
+    EXPECT_EQ(all.agrees[0], 0);
 }
 
 TEST(RansacTransformsTest, RefuseWhatIsNone) {

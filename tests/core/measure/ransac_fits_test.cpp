@@ -155,6 +155,31 @@ TEST(FitPlaneTest, AsInDoubleAndNoTurnFitsBetter) {
     }
 }
 
+TEST(FitPlaneTest, TheLargestComponentOfTheNormalIsAboveZero) {
+    Random random(10);
+    for (int k = 0; k < 24; ++k) {
+        std::vector<SpacePoint> points;
+        const int a = random.between(-3, 3);
+        const int b = random.between(-3, 3);
+        for (int i = 0; i < 5; ++i) {
+            const int x = random.between(-50, 50);
+            const int y = random.between(-50, 50);
+            const int z = a * x + b * y;
+            points.push_back(k % 3 == 0   ? SpacePoint{x, y, z}
+                             : k % 3 == 1 ? SpacePoint{z, x, y}
+                                          : SpacePoint{y, z, x});
+        }
+        const auto fit = fit_plane(span(points));
+        ASSERT_TRUE(fit);
+        int largest = 0;
+        for (int i = 1; i < 3; ++i)
+            if (fit->plane.normal[largest].absolute() < fit->plane.normal[i].absolute()) largest = i;
+        EXPECT_LT(Real(), fit->plane.normal[largest]) << k;
+        for (const SpacePoint point : points)
+            EXPECT_LT(value_of(distance_from(fit->plane, detail::vector_of<Real>(point)).absolute()), 1e-12);
+    }
+}
+
 TEST(FitPlaneTest, OfMostPoints) {
     Random random(9);
     std::vector<SpacePoint> points;

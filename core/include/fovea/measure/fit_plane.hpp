@@ -46,8 +46,8 @@ struct PlaneFit {
 /// Shapes    3 to 2^20 points
 /// Units     those of the points
 /// Rounding  sums are exact; then that of symmetric_eigen()
-/// Errors    bad_argument for fewer than 3 points or more than 2^20; degenerate for points on a line, or whose
-///           spread square to the plane is not less than that along it
+/// Errors    bad_argument for fewer than 3 points or more than 2^20; degenerate for points on a line, or
+///           that spread as far square to the plane as along it
 /// Source    total least squares; Pearson, "On Lines and Planes of Closest Fit", 1901
 template <class Scalar = Real>
 constexpr Result<PlaneFit<Scalar>> fit_plane(Span<const SpacePoint> points);
