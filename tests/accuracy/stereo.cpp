@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How exact the geometry of two cameras is: 200 random pairs with noise, and Real beside numbers of 113 digits.
-// Run by hand (`cmake --build build/host --target stereo_accuracy`, then build/host/tests/stereo_accuracy); the
-// figures stand in docs/operators/stereo.md. Prints Markdown.
+// How exact the geometry of two cameras is: 200 random pairs with noise, and Real beside numbers of 113
+// digits. Run by hand (`cmake --build build/host --target stereo_accuracy`, then
+// build/host/tests/stereo_accuracy); the figures stand in docs/operators/stereo.md. Prints Markdown.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

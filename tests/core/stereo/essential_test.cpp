@@ -38,7 +38,8 @@ double worst_distance(const Matrix<3, 3>& f, const Pixels& left, const Pixels& r
     }
     return worst;
 }
-/// How far two matrices lead apart: the largest difference of the distances that their lines have from pixels.
+/// How far two matrices lead apart: the largest difference of the distances that their lines have from
+/// pixels.
 template <class Scalar>
 double apart(const Matrix<3, 3>& f, const Matrix<3, 3, Scalar>& g, const Pixels& left, const Pixels& right) {
     double most = 0;

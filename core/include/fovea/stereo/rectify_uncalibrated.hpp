@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Rectification of two pictures whose cameras are not known: homographies from the fundamental matrix and pairs
-// of pixels.
+// Rectification of two pictures whose cameras are not known: homographies from the fundamental matrix and
+// pairs of pixels.
 #pragma once
 
 #include <cstddef>
@@ -28,16 +28,16 @@ struct RectifyingHomographies {
     StereoAxis axis = StereoAxis::x;
 };
 
-/// Makes the rows, or columns for cameras above each other, of two pictures agree. The right picture is turned
-/// about its middle and bent as little as that takes; the left one follows, with disparities as small as
-/// possible for the pairs.
+/// Makes the rows, or columns for cameras above each other, of two pictures agree. The right picture is
+/// turned about its middle and bent as little as that takes; the left one follows, with disparities as small
+/// as possible for the pairs.
 ///
 /// Shapes    3 pairs or more; wrong ones are the caller's to leave out
 /// Range     no pixel is further than 2^16 px from the origin
 /// Errors    size_mismatch; empty_image; image_too_large; bad_argument for fewer than 3 pairs or more than
 ///           2^20; out_of_range for pixels beyond the range; degenerate for a matrix whose rank is not 2 as
-///           epipoles() says, if an epipole is in its picture or its lines cannot be made parallel without the
-///           horizon in a picture, if the left pixels are on a line, or if the pairs mirror
+///           epipoles() says, if an epipole is in its picture or its lines cannot be made parallel without
+///           the horizon in a picture, if the left pixels are on a line, or if the pairs mirror
 /// Source    Hartley, "Theory and Practice of Projective Rectification", IJCV 35(2), 1999; what that chooses
 ///           freely for the left picture changes its row of the axis alone, and the pairs fix that
 template <class Scalar>
