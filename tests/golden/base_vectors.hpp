@@ -64,6 +64,11 @@ inline void base_random(Workspace&, Digest& digest) {
         digest.add(random.between(-i, i * i));
         digest.add(random.between(std::numeric_limits<int>::min(), std::numeric_limits<int>::max() - 1));
     }
+    for (int i = 4; i <= 20; ++i) {
+        std::ptrdiff_t chosen[4] = {};
+        draw_different(random, i, chosen);
+        for (const std::ptrdiff_t number : chosen) digest.add(number);
+    }
 }
 
 inline void base_order(Workspace&, Digest& digest) {

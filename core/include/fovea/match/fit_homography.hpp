@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
