@@ -94,7 +94,8 @@ constexpr Result<Matrix<3, 4, Scalar>> fit_projection(Span<const SpacePoint> poi
         const std::int64_t z = points[i].z - means.x[2];
         const std::int64_t u = pixels[i].x.raw() - means.u[0];
         const std::int64_t v = pixels[i].y.raw() - means.u[1];
-        for (const std::int64_t side : {x, y, z, u, v})
+        const std::int64_t sides[5] = {x, y, z, u, v};
+        for (const std::int64_t side : sides)
             if (side > detail::most_from_centre || side < -detail::most_from_centre)
                 return Status::out_of_range;
         equations.add({x, y, z, 1, 0, 0, 0, 0, -u * x, -u * y, -u * z}, u);
@@ -116,10 +117,19 @@ constexpr Result<Matrix<3, 4, Scalar>> fit_projection(Span<const SpacePoint> poi
     const Scalar length = length_of(detail::head_of_row(matrix, 2));
     if (!(zero < length)) return Status::degenerate;
     matrix = matrix * (one / length);
+    const auto distance = [&](SpacePoint point) {
+        return dot(detail::head_of_row(matrix, 2), vector_of<Scalar>(point)) + matrix(2, 3);
+    };
+    Scalar farthest = zero;
+    for (const SpacePoint point : points)
+        if (farthest < absolute(distance(point))) farthest = absolute(distance(point));
+    bool behind = false;
     for (const SpacePoint point : points) {
-        const Scalar distance = dot(detail::head_of_row(matrix, 2), vector_of<Scalar>(point)) + matrix(2, 3);
-        if (!(zero < distance)) return Status::irregular;
+        // With all but one point on a plane, that plane as the camera's fits without any error.
+        if (absolute(distance(point)) < scale(farthest, -24)) return Status::degenerate;
+        behind = behind || distance(point) < zero;
     }
+    if (behind) return Status::irregular;
     const Vector<3, Scalar> across = detail::head_of_row(matrix, 0);
     const Vector<3, Scalar> down = detail::head_of_row(matrix, 1);
     if (!(zero < dot(cross(across, down), detail::head_of_row(matrix, 2)))) return Status::irregular;

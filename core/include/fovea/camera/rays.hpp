@@ -7,9 +7,9 @@
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/camera/calibration.hpp>
 #include <fovea/camera/fisheye.hpp>
 #include <fovea/camera/lens_inverse.hpp>
-#include <fovea/camera/refine_pose.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/linear/matrix.hpp>
 #include <fovea/number/scalar.hpp>
@@ -26,20 +26,21 @@ namespace fovea {
 ///         place of the lens' field is seen in. Then rays before it are written
 template <class Scalar>
 constexpr Status rays_of(const LensInverse<Scalar>& lens, Span<const SubPixelPoint> pixels,
-                         Span<Vector<3, Scalar>> rays);
+                         Span<Vector<3, NonDeduced<Scalar>>> rays);
 template <class Scalar>
 constexpr Status rays_of(const FisheyeLens<Scalar>& lens, Span<const SubPixelPoint> pixels,
-                         Span<Vector<3, Scalar>> rays);
+                         Span<Vector<3, NonDeduced<Scalar>>> rays);
 
 // ---- Implementation ---------------------------------------------------------------
 
 namespace detail {
 
 template <class Scalar, class Lens>
-constexpr Status rays_by(const Lens& lens, Span<const SubPixelPoint> pixels, Span<Vector<3, Scalar>> rays) {
+constexpr Status rays_by(const Lens& lens, Span<const SubPixelPoint> pixels,
+                         Span<Vector<3, NonDeduced<Scalar>>> rays) {
     if (pixels.size() != rays.size()) return Status::size_mismatch;
     for (std::ptrdiff_t i = 0; i < pixels.size(); ++i) {
-        const Result<Vector<3, Scalar>> ray = lens.ray(vector_of<Scalar>(pixels[i]));
+        const Result<Vector<3, Scalar>> ray = lens.ray(pixel_seen<Scalar>(pixels[i]));
         if (!ray) return ray.status();
         rays[i] = *ray;
     }
@@ -50,12 +51,12 @@ constexpr Status rays_by(const Lens& lens, Span<const SubPixelPoint> pixels, Spa
 
 template <class Scalar>
 constexpr Status rays_of(const LensInverse<Scalar>& lens, Span<const SubPixelPoint> pixels,
-                         Span<Vector<3, Scalar>> rays) {
+                         Span<Vector<3, NonDeduced<Scalar>>> rays) {
     return detail::rays_by(lens, pixels, rays);
 }
 template <class Scalar>
 constexpr Status rays_of(const FisheyeLens<Scalar>& lens, Span<const SubPixelPoint> pixels,
-                         Span<Vector<3, Scalar>> rays) {
+                         Span<Vector<3, NonDeduced<Scalar>>> rays) {
     return detail::rays_by(lens, pixels, rays);
 }
 

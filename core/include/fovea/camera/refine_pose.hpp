@@ -8,9 +8,10 @@
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/camera/calibration.hpp>
 #include <fovea/camera/camera.hpp>
 #include <fovea/camera/pose.hpp>
-#include <fovea/camera/projection_slopes.hpp>
+#include <fovea/camera/projection_derivatives.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/linear/levenberg_marquardt.hpp>
 #include <fovea/linear/matrix.hpp>
@@ -37,13 +38,6 @@ struct PoseFit {
     int used = 0;
 };
 
-/// A pixel as a vector.
-template <class Scalar = Real>
-constexpr Vector<2, Scalar> vector_of(SubPixelPoint point) {
-    return Vector<2, Scalar>(scalar_of<Scalar>(point.x.raw(), -SubPixel::fraction_bits),
-                             scalar_of<Scalar>(point.y.raw(), -SubPixel::fraction_bits));
-}
-
 /// The pose with the least sum of squared distances in the image, with the lens.
 ///
 /// Shapes    as many points as pixels: 3 to 2^20
@@ -54,25 +48,30 @@ constexpr Vector<2, Scalar> vector_of(SubPixelPoint point) {
 template <class Scalar = Real>
 constexpr Result<PoseFit<Scalar>> refine_pose(Span<const SpacePoint> points, Span<const SubPixelPoint> pixels,
                                               const Camera<Scalar>& camera, const Pose<Scalar>& start);
+/// The same for places of a plane, whose z is 0.
+template <class Scalar = Real>
+constexpr Result<PoseFit<Scalar>> refine_pose(Span<const PlanePoint> points, Span<const SubPixelPoint> pixels,
+                                              const Camera<Scalar>& camera, const Pose<Scalar>& start);
 
 // ---- Implementation ---------------------------------------------------------------
 
 namespace detail {
 
 /// Points from their mean, their pixels, and the camera: what levenberg_marquardt() asks for.
-template <class Scalar, class Use>
+template <class Scalar, class Point, class Use>
 class PoseProblem {
 public:
-    constexpr PoseProblem(Span<const SpacePoint> points, Span<const SubPixelPoint> pixels,
+    constexpr PoseProblem(Span<const Point> points, Span<const SubPixelPoint> pixels,
                           const Camera<Scalar>& camera, Use use)
         : points_(points), pixels_(pixels), camera_(camera), use_(use) {
         std::int64_t sums[3] = {};
         for (std::ptrdiff_t i = 0; i < points.size(); ++i) {
             if (!use(i)) continue;
             ++used_;
-            sums[0] += points[i].x;
-            sums[1] += points[i].y;
-            sums[2] += points[i].z;
+            const SpacePoint point = in_space(points[i]);
+            sums[0] += point.x;
+            sums[1] += point.y;
+            sums[2] += point.z;
         }
         for (int k = 0; k < 3; ++k) mean_[k] = floor_divide(sums[k], std::int64_t{maximum(used_, 1)});
     }
@@ -85,10 +84,12 @@ public:
     constexpr Status linearise(const Pose<Scalar>& pose, NormalEquations<6, Scalar>& equations) const {
         for (std::ptrdiff_t i = 0; i < points_.size(); ++i) {
             if (!use_(i)) continue;
-            const auto seen = project_with_slopes(camera_, pose, place(i));
-            if (!seen) return seen.status();
-            const Vector<2, Scalar> error = seen->pixel - vector_of<Scalar>(pixels_[i]);
-            for (int r = 0; r < 2; ++r) equations.add(seen->pose.row(r), error[r]);
+            const Vector<3, Scalar> arm = pose.rotation * place(i);
+            ProjectionDerivatives<Scalar> seen;
+            const Status status = project_derivatives(camera_, arm + pose.translation, seen);
+            if (status != Status::ok) return status;
+            const Vector<2, Scalar> error = seen.pixel - pixel_seen<Scalar>(pixels_[i]);
+            for (int r = 0; r < 2; ++r) equations.add(by_pose(seen.by_point.row(r), arm), error[r]);
         }
         return Status::ok;
     }
@@ -98,7 +99,7 @@ public:
             if (!use_(i)) continue;
             const auto seen = project(camera_, pose, place(i));
             if (!seen) return seen.status();
-            const Vector<2, Scalar> error = *seen - vector_of<Scalar>(pixels_[i]);
+            const Vector<2, Scalar> error = *seen - pixel_seen<Scalar>(pixels_[i]);
             for (int r = 0; r < 2; ++r) sum = sum + error[r] * error[r];
         }
         return sum;
@@ -109,12 +110,12 @@ public:
 
 private:
     constexpr Vector<3, Scalar> place(std::ptrdiff_t index) const {
-        const SpacePoint point = points_[index];
+        const SpacePoint point = in_space(points_[index]);
         return Vector<3, Scalar>(scalar_of<Scalar>(point.x - mean_[0]), scalar_of<Scalar>(point.y - mean_[1]),
                                  scalar_of<Scalar>(point.z - mean_[2]));
     }
 
-    Span<const SpacePoint> points_;
+    Span<const Point> points_;
     Span<const SubPixelPoint> pixels_;
     const Camera<Scalar>& camera_;
     Use use_;
@@ -123,12 +124,11 @@ private:
 };
 
 /// refine_pose() over the pairs for which use(index) holds.
-template <class Scalar, class Use>
-constexpr Result<PoseFit<Scalar>> refine_pose_to(Span<const SpacePoint> points,
-                                                 Span<const SubPixelPoint> pixels,
+template <class Scalar, class Point, class Use>
+constexpr Result<PoseFit<Scalar>> refine_pose_to(Span<const Point> points, Span<const SubPixelPoint> pixels,
                                                  const Camera<Scalar>& camera, const Pose<Scalar>& start,
                                                  Use use) {
-    const PoseProblem<Scalar, Use> problem(points, pixels, camera, use);
+    const PoseProblem<Scalar, Point, Use> problem(points, pixels, camera, use);
     if (problem.used() < 3) return Status::bad_argument;
     Pose<Scalar> pose{start.rotation, start(problem.mean())};
     const auto found = levenberg_marquardt<6, Scalar>(problem, pose);
@@ -153,17 +153,29 @@ constexpr Result<PoseFit<Scalar>> refine_pose_to(Span<const SpacePoint> points,
     return fit;
 }
 
-}  // namespace detail
-
-template <class Scalar>
-constexpr Result<PoseFit<Scalar>> refine_pose(Span<const SpacePoint> points, Span<const SubPixelPoint> pixels,
-                                              const Camera<Scalar>& camera, const Pose<Scalar>& start) {
+/// refine_pose(), of either kind of points.
+template <class Scalar, class Point>
+constexpr Result<PoseFit<Scalar>> refine_pose_of(Span<const Point> points, Span<const SubPixelPoint> pixels,
+                                                 const Camera<Scalar>& camera, const Pose<Scalar>& start) {
     if (points.size() != pixels.size()) return Status::size_mismatch;
     if (points.size() < 3 || points.size() > std::ptrdiff_t{1} << 20) return Status::bad_argument;
     const Result<PointSpread> spread = spread_of<Scalar>(points);
     if (!spread) return spread.status();
     if (*spread == PointSpread::point || *spread == PointSpread::line) return Status::degenerate;
-    return detail::refine_pose_to(points, pixels, camera, start, [](std::ptrdiff_t) { return true; });
+    return refine_pose_to(points, pixels, camera, start, [](std::ptrdiff_t) { return true; });
+}
+
+}  // namespace detail
+
+template <class Scalar>
+constexpr Result<PoseFit<Scalar>> refine_pose(Span<const SpacePoint> points, Span<const SubPixelPoint> pixels,
+                                              const Camera<Scalar>& camera, const Pose<Scalar>& start) {
+    return detail::refine_pose_of(points, pixels, camera, start);
+}
+template <class Scalar>
+constexpr Result<PoseFit<Scalar>> refine_pose(Span<const PlanePoint> points, Span<const SubPixelPoint> pixels,
+                                              const Camera<Scalar>& camera, const Pose<Scalar>& start) {
+    return detail::refine_pose_of(points, pixels, camera, start);
 }
 
 }  // namespace fovea

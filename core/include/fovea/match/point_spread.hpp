@@ -34,6 +34,12 @@ enum class PointSpread : std::uint8_t {
 /// Source    eigenvalues of the covariance
 template <class Scalar = Real>
 constexpr Result<PointSpread> spread_of(Span<const SpacePoint> points);
+template <class Scalar = Real>
+constexpr Result<PointSpread> spread_of(Span<const PlanePoint> points);
+
+/// A place of a plane in space, at z = 0.
+constexpr SpacePoint in_space(PlanePoint point) { return {point.x, point.y, 0}; }
+constexpr SpacePoint in_space(SpacePoint point) { return point; }
 
 /// A place in space as a vector.
 template <class Scalar = Real>
@@ -44,15 +50,18 @@ constexpr Vector<3, Scalar> vector_of(SpacePoint point) {
 
 // ---- Implementation ---------------------------------------------------------------
 
-template <class Scalar>
-constexpr Result<PointSpread> spread_of(Span<const SpacePoint> points) {
+namespace detail {
+
+template <class Scalar, class Point>
+constexpr Result<PointSpread> spread_of_points(Span<const Point> points) {
     const std::int64_t count = points.size();
     if (count < 1 || count > std::int64_t{1} << 20) return Status::bad_argument;
     // From the first point, sides are below 2^32, sums below 2^52, products below 2^104.
-    const SpacePoint first = points[0];
+    const SpacePoint first = in_space(points[0]);
     std::int64_t sums[3] = {};
     Int128 products[3][3];
-    for (const SpacePoint point : points) {
+    for (const Point whole : points) {
+        const SpacePoint point = in_space(whole);
         const std::int64_t side[3] = {std::int64_t{point.x} - first.x, std::int64_t{point.y} - first.y,
                                       std::int64_t{point.z} - first.z};
         for (int r = 0; r < 3; ++r) {
@@ -73,6 +82,17 @@ constexpr Result<PointSpread> spread_of(Span<const SpacePoint> points) {
     const Scalar thin = scale(covariance(0, 0), -32);
     if (!(thin < covariance(1, 1))) return PointSpread::line;
     return thin < covariance(2, 2) ? PointSpread::space : PointSpread::plane;
+}
+
+}  // namespace detail
+
+template <class Scalar>
+constexpr Result<PointSpread> spread_of(Span<const SpacePoint> points) {
+    return detail::spread_of_points<Scalar>(points);
+}
+template <class Scalar>
+constexpr Result<PointSpread> spread_of(Span<const PlanePoint> points) {
+    return detail::spread_of_points<Scalar>(points);
 }
 
 }  // namespace fovea
