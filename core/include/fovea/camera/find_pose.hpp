@@ -107,7 +107,7 @@ constexpr Result<FoundPose<Scalar>> find_pose(Span<const SpacePoint> points, Spa
     if (scratch.size() < find_pose_scratch(points.size())) return Status::scratch_too_small;
     const LensInverse<Scalar> lens(camera);
     for (std::ptrdiff_t i = 0; i < points.size(); ++i) {
-        const Result<Vector<3, Scalar>> ray = lens.ray(pixel_seen<Scalar>(pixels[i]));
+        const Result<Vector<3, Scalar>> ray = lens.ray(detail::pixel_seen<Scalar>(pixels[i]));
         scratch[i] = ray ? *ray : Vector<3, Scalar>();
     }
     const Scalar side = scalar_of<Scalar>(tolerance.raw(), -SubPixel::fraction_bits);

@@ -52,12 +52,12 @@ constexpr Status rays_by(const Lens& lens, Span<const SubPixelPoint> pixels,
 template <class Scalar>
 constexpr Status rays_of(const LensInverse<Scalar>& lens, Span<const SubPixelPoint> pixels,
                          Span<Vector<3, NonDeduced<Scalar>>> rays) {
-    return detail::rays_by(lens, pixels, rays);
+    return detail::rays_by<Scalar>(lens, pixels, rays);
 }
 template <class Scalar>
 constexpr Status rays_of(const FisheyeLens<Scalar>& lens, Span<const SubPixelPoint> pixels,
                          Span<Vector<3, NonDeduced<Scalar>>> rays) {
-    return detail::rays_by(lens, pixels, rays);
+    return detail::rays_by<Scalar>(lens, pixels, rays);
 }
 
 }  // namespace fovea
