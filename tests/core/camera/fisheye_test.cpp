@@ -98,7 +98,13 @@ TEST(FisheyeLens, FindsEveryRayOfItsField) {
 TEST(FisheyeLens, ItsFieldEndsBeforeTheFirstFold) {
     // The slope 1 - a^2 ends at 1 radian; and polynomials that fold and straighten again.
     EXPECT_NEAR(plain(FisheyeLens<>(camera_of(-1.0 / 3, 0, 0, 0)).field()), 1, 1e-8);
-    const double lenses[3][4] = {{-0.68, 0.2, 0, 0}, {-1.2, 1.5, -0.6, 0.08}, {0.3, -0.9, 0.5, -0.07}};
+    // The last but grazes 0, between two of the first strides.
+    const double square = (1 + 1.0 / 128) * (1 + 1.0 / 128);
+    const double grazing = 1 - 1.2e-4;
+    const double lenses[4][4] = {{-0.68, 0.2, 0, 0},
+                                 {-0.3, 0.02, 0.004, 0.0002},
+                                 {-0.35, 0.06, -0.004, 0.0001},
+                                 {-2 / (3 * square * grazing), 1 / (5 * square * square * grazing), 0, 0}};
     for (const auto& k : lenses) {
         const FisheyeLens<> lens(camera_of(k[0], k[1], k[2], k[3]));
         double fold = 0;
