@@ -161,6 +161,7 @@ inline void number_int128(Workspace&, Digest& digest) {
         const std::int64_t b = wide_random(random) >> 1;
         const std::int64_t c = wide_random(random) >> 1 | 1;
         const Int128 product = Int128::product(a, b);
+        digest.add(Int128::product_in_words(a, b));
         const Int128 wide = (product >> 30) * (c >> 40);
         Int128 sum = product;
         sum += Int128(c);
