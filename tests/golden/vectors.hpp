@@ -32,6 +32,7 @@
 #include <golden/motion_vectors.hpp>
 #include <golden/number_vectors.hpp>
 #include <golden/operator_vectors.hpp>
+#include <golden/pose_vectors.hpp>
 #include <golden/segment_vectors.hpp>
 #include <golden/statistics_vectors.hpp>
 #include <golden/stream_vectors.hpp>
@@ -53,6 +54,7 @@ inline constexpr Vector vectors[] = {
     {"base/order", base_order},
     {"base/random", base_random},
     {"number/angle_and_fixed", number_angle},
+    {"number/arctangent", number_arctangent},
     {"number/decimal", number_decimal},
     {"number/int128", number_int128},
     {"number/integer", number_integer},
@@ -61,6 +63,7 @@ inline constexpr Vector vectors[] = {
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
     {"number/wide", number_wide},
+    {"linear/cubic", linear_cubic},
     {"linear/eigen", linear_eigen},
     {"linear/matrices", linear_matrices},
     {"linear/solvers", linear_solvers},
@@ -130,8 +133,15 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"camera/alignment", camera_alignment},
+    {"camera/find_pose", camera_find_pose},
+    {"camera/fisheye", camera_fisheye},
     {"camera/lens", camera_lens},
+    {"camera/object_pose", camera_object_pose},
+    {"camera/planar_pose", camera_planar_pose},
     {"camera/poses", camera_poses},
+    {"camera/projection", camera_projection},
+    {"camera/view_fit", camera_view_fit},
     {"code/blurred_ean", code_blurred_ean},
     {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},
