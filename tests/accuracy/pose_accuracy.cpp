@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Random views of random objects, many of each: how far cameras and poses are from the same in long double, from
-// the truth, and what is refused. Run by hand; its figures are in docs/operators/pose.md.
-//   pose_accuracy [COUNT]     1000 of each without a number
+// Random views of random objects, many of each: how far cameras and poses are from the same in long double,
+// from the truth, and what is refused. Run by hand; its figures are in docs/operators/pose.md.
+//   pose_accuracy [COUNT] 1000 of each without a number
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

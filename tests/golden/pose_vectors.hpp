@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Golden vectors of cameras and poses that are found from points, of the fisheye camera, and of what they need.
+// Golden vectors of cameras and poses that are found from points, of the fisheye camera, and of what they
+// need.
 #pragma once
 
 #include <cstddef>

@@ -30,8 +30,8 @@ struct Alignment {
     }
 };
 
-/// The rotation and translation that bring points nearest to others: the sum of squared distances is smallest.
-/// It never mirrors.
+/// The rotation and translation that bring points nearest to others: the sum of squared distances is
+/// smallest. It never mirrors.
 ///
 /// Shapes    as many from as to: 3 to 2^20
 /// Rounding  that of Scalar, from the means of the points

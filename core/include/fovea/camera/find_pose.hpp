@@ -39,15 +39,15 @@ constexpr std::ptrdiff_t find_pose_scratch(std::ptrdiff_t points) { return point
 /// The pose that most points agree with: they are seen at most tolerance from their pixels. Objects may be
 /// flat or not. A pixel that no ray of the lens leads to agrees with none.
 ///
-/// agrees   1 for each pair that the fit rests on and 0 for the others
+/// agrees 1 for each pair that the fit rests on and 0 for the others
 /// Shapes   as many points as pixels: 4 to 2^20; agrees as long
 /// Scratch  find_pose_scratch(points.size()) rays, undefined afterwards
 /// Rounding as refine_pose()
 /// Time     a sample is p3p() and one projection a point
-/// Errors   size_mismatch; bad_argument for fewer than 4 pairs or more than 2^20, a tolerance that is not above
-///          0, a camera without focal lengths or options out of range; scratch_too_small; not_found if fewer
-///          than options.enough agree; degenerate if no sample makes a pose, as where all points lie on a
-///          line; undecided if the fit to those that agree does not settle
+/// Errors   size_mismatch; bad_argument for fewer than 4 pairs or more than 2^20, a tolerance that is not
+///          above 0, a camera without focal lengths or options out of range; scratch_too_small; not_found if
+///          fewer than options.enough agree; degenerate if no sample makes a pose, as where all points lie on
+///          a line; undecided if the fit to those that agree does not settle
 /// Source   ransac() over samples of four: three make up to four poses, the fourth tells which; then
 ///          refine_pose() of those that agree, repeated while their number grows
 template <class Scalar = Real>

@@ -35,8 +35,8 @@ struct FisheyeCamera {
     constexpr Scalar slope(Scalar angle) const;
 };
 
-/// A fisheye camera and its field: the angles up to the first at which the radius might not grow any more. What
-/// the polynomial says beyond is nothing, and is not answered. The field may reach behind the camera.
+/// A fisheye camera and its field: the angles up to the first at which the radius might not grow any more.
+/// What the polynomial says beyond is nothing, and is not answered. The field may reach behind the camera.
 ///
 /// Source  between two angles the slope is above the least of its five Bernstein coefficients in the square
 template <class Scalar = Real>
@@ -58,9 +58,10 @@ public:
     ///
     /// Rounding  the radius of its angle is within 2^-54 of the pixel's, or of its length where that is above
     ///           1
-    /// Time      at most 80 steps of Newton's, halved where they leave what is known to hold the angle; 3 to 6
-    ///           as a rule
-    /// Errors    bad_argument for a camera without focal lengths; out_of_range for a pixel outside of the field
+    /// Time      at most 80 steps of Newton's, halved where they leave what is known to hold the angle; 3 to
+    ///           6 as a rule
+    /// Errors    bad_argument for a camera without focal lengths; out_of_range for a pixel outside of the
+    ///           field
     constexpr Result<Vector<3, Scalar>> ray(const Vector<2, Scalar>& pixel) const;
 
 private:

@@ -29,15 +29,16 @@ struct PoseCandidates {
 /// Shapes    three points, three rays
 /// Units     rays are directions in camera coordinates, of any length, as LensInverse::ray() gives them
 /// Rounding  points are on their rays to the last digits where solutions lie apart. Two that meet, which they
-///           do where the camera is on the cylinder through the points that stands on their plane, are known to
-///           half of the digits; where rounded rays make them miss each other by less than 2^-20, the one place
-///           between them is told, which is off its rays by about as much
+///           do where the camera is on the cylinder through the points that stands on their plane, are known
+///           to half of the digits; where rounded rays make them miss each other by less than 2^-20, the one
+///           place between them is told, which is off its rays by about as much
 /// Errors    bad_argument for other than three, or a ray of length 0; degenerate for points on a line or two
 ///           rays in one direction; not_found if no pose is
 /// Source    two cones in the three distances, whose pencil has a pair of planes; as in Persson and Nordberg,
-///           "Lambda Twist: An Accurate Fast Robust Perspective Three Point (P3P) Solver", ECCV 2018. Here the
-///           unknowns are one distance and the differences to it, so that long focal lengths lose no digits;
-///           the pair is taken apart by its adjugate in place of eigenvectors, and steps of Newton follow
+///           "Lambda Twist: An Accurate Fast Robust Perspective Three Point (P3P) Solver", ECCV 2018. Here
+///           the unknowns are one distance and the differences to it, so that long focal lengths lose no
+///           digits; the pair is taken apart by its adjugate in place of eigenvectors, and steps of Newton
+///           follow
 template <class Scalar = Real>
 constexpr Result<PoseCandidates<Scalar>> p3p(Span<const SpacePoint> points,
                                              NonDeduced<Span<const Vector<3, Scalar>>> rays);

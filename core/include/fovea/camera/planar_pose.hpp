@@ -37,8 +37,8 @@ struct PlaneTilts {
     Pose<Scalar> poses[2];
 };
 
-/// The two tilts of a plane that a homography leaves, from the homography's slopes at one place: they agree in
-/// these slopes exactly, and differ in how these change.
+/// The two tilts of a plane that a homography leaves, from the homography's slopes at one place: they agree
+/// in these slopes exactly, and differ in how these change.
 ///
 /// homography  of places to coordinates at distance 1, with a divisor above 0 at the place
 /// place       a place of the plane

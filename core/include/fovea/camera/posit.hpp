@@ -18,8 +18,8 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-/// The pose in which points are seen along their rays: the first point exactly, the others as least squares of
-/// a scaled projection have them, which is exact where rays are. refine_pose() goes on from here.
+/// The pose in which points are seen along their rays: the first point exactly, the others as least squares
+/// of a scaled projection have them, which is exact where rays are. refine_pose() goes on from here.
 ///
 /// Shapes    as many points as rays: 4 to 2^20, not on a plane
 /// Units     rays are directions in camera coordinates, of any length, as LensInverse::ray() gives them

@@ -56,13 +56,13 @@ constexpr Result<Vector<2, Scalar>> project(const Matrix<3, 4, Scalar>& projecti
 template <class Scalar>
 constexpr Result<CameraView<Scalar>> decompose(const Matrix<3, 4, Scalar>& projection);
 
-/// All points of the world that are seen in a pixel: a point whose coordinate along the direction's largest is
-/// 0, and the direction at length 1, away from the camera.
+/// All points of the world that are seen in a pixel: a point whose coordinate along the direction's largest
+/// is 0, and the direction at length 1, away from the camera.
 ///
 /// Errors  degenerate where the first three columns have no inverse
-/// Source  book eq. 2.16 to 2.20, which take z as the parameter and divide by a and r, that may be 0: here the
-///         parameter is the coordinate in which the ray runs fastest, and the only divisor is that part of the
-///         direction
+/// Source  book eq. 2.16 to 2.20, which take z as the parameter and divide by a and r, that may be 0: here
+///         the parameter is the coordinate in which the ray runs fastest, and the only divisor is that part
+///         of the direction
 template <class Scalar>
 constexpr Result<Ray<Scalar>> ray_of(const Matrix<3, 4, Scalar>& projection, const Vector<2, Scalar>& pixel);
 

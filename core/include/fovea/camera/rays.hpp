@@ -18,8 +18,8 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-/// The directions from which pixels are seen, as the lens has them: at z = 1 for a LensInverse, at length 1 for
-/// a FisheyeLens.
+/// The directions from which pixels are seen, as the lens has them: at z = 1 for a LensInverse, at length 1
+/// for a FisheyeLens.
 ///
 /// Shapes  as many pixels as rays
 /// Errors  size_mismatch; bad_argument for a camera without focal lengths; out_of_range for a pixel that no

@@ -9,10 +9,11 @@ namespace fovea {
 
 // ---- Interface --------------------------------------------------------------------
 
-/// The real x with x^3 + a x^2 + b x + c = 0: the only one, or of three the one that is farthest from the other
-/// two.
+/// The real x with x^3 + a x^2 + b x + c = 0: the only one, or of three the one that is farthest from the
+/// other two.
 ///
-/// Rounding  to the last digits of Scalar, as far as the polynomial tells: a threefold root to a third of them
+/// Rounding  to the last digits of Scalar, as far as the polynomial tells: a threefold root to a third of
+///           them
 /// Time      at most 80 steps; 5 to 12 as a rule
 /// Source    Newton's steps from outside of all roots, on the side of the root that stands alone, where each
 ///           step stays outside
