@@ -142,8 +142,7 @@ TEST(FitPlaneTest, AsInDoubleAndNoTurnFitsBetter) {
                 normal[axis] += turn;
                 // With its best offset: through the mean.
                 double mean[2] = {0, 0};
-                for (const SpacePoint point : points)
-                    mean[0] += dot(normal, vector_of<double>(point)) / 30;
+                for (const SpacePoint point : points) mean[0] += dot(normal, vector_of<double>(point)) / 30;
                 double other = 0;
                 for (const SpacePoint point : points) {
                     const double distance = dot(normal, vector_of<double>(point)) - mean[0];
