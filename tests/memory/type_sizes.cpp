@@ -8,6 +8,8 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/segment/connected_components.hpp>
 #include <fovea/statistics/histogram.hpp>
+#include <fovea/stereo/rectify.hpp>
+#include <fovea/stereo/triangulate.hpp>
 
 namespace fovea {
 
@@ -27,5 +29,8 @@ template char bytes_of<Feature>[];
 template char bytes_of<Recipe>[];
 template char bytes_of<FeatureResult>[];
 template char bytes_of<PartResult>[];
+template char bytes_of<StereoCamera<>>[];
+template char bytes_of<Rectification<>>[];
+template char bytes_of<Triangulator<>>[];
 
 }  // namespace fovea
