@@ -114,6 +114,10 @@ TEST(AlignPoints, RefusesByName) {
     to = from;
     line(from);
     EXPECT_EQ(status(), Status::degenerate);
+    // A line that is crooked by a millionth of its length.
+    for (Vector<3>& point : from) point += random_matrix<3, 1>(random) * Real::from_ratio(1, 10000);
+    to = from;
+    EXPECT_EQ(status(), Status::degenerate);
     from.assign(6, vector_of({1, 2, 3}));
     EXPECT_EQ(status(), Status::degenerate);
     // A mirrored octahedron: many rotations are equally near.

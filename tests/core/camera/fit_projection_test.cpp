@@ -158,6 +158,14 @@ TEST(FitProjection, RefusesByName) {
     points[7].z += 500;
     EXPECT_EQ(*spread_of(span_of(points)), PointSpread::space);
     EXPECT_EQ(status_of_points(points), Status::degenerate);
+    // A sheet a million times as wide as thick tells nothing, though its equations have a solution.
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {random.between(-1000000, 1000000), random.between(-1000000, 1000000),
+                     static_cast<std::int32_t>(i % 2)};
+    EXPECT_EQ(*spread_of(span_of(points)), PointSpread::plane);
+    const Pose<> far{rotation_about(Vector<3>(real_of(0.3), real_of(0.5), Real())), whole(0, 0, 5000000)};
+    const auto sheet = seen_by(camera, far, points, 0.1, random);
+    EXPECT_EQ(fit_projection(span_of(points), span_of(sheet)).status(), Status::degenerate);
     for (SpacePoint& point : points) point.y = point.z = 3 * point.x;
     EXPECT_EQ(*spread_of(span_of(points)), PointSpread::line);
     EXPECT_EQ(status_of_points(points), Status::degenerate);
@@ -236,9 +244,14 @@ TEST(RayOf, LeadsThroughThePointOfItsPixel) {
         const Vector<3> off = cross(vector_of(point) - ray->point, ray->direction);
         ASSERT_LE(plain(length_of(off)), 1e-12);
         ASSERT_NEAR(plain(length_of(ray->direction)), 1, 1e-17);
-        // Away from the camera.
+        // Away from the camera; also from one that mirrors.
         const Vector<3> centre = inverse(pose)(Vector<3>());
         ASSERT_TRUE(dot(ray->direction, vector_of(point) - centre).positive());
+        Matrix<3, 4> mirror = matrix;
+        for (int c = 0; c < 4; ++c) mirror(0, c) = -mirror(0, c);
+        const auto mirrored = ray_of(mirror, Vector<2>(-(*pixel)[0], (*pixel)[1]));
+        ASSERT_TRUE(mirrored);
+        ASSERT_LE((exponent_of_difference<3, 1>(mirrored->direction, ray->direction)), -55);
     }
 }
 
@@ -281,12 +294,18 @@ TEST(FitView, FindsTheLensOfThreePlates) {
         // Pixels are rounded to 1/256: deviations are 1/256 / sqrt(12) an axis, or the noise.
         const double axis = std::sqrt(noise * noise + 1.0 / (256 * 256 * 12));
         EXPECT_NEAR(plain(fit->rms), axis * std::sqrt(2), 0.15 * axis);
+        double squares = 0;
         for (int i = 0; i < camera_terms; ++i) {
             const auto term = static_cast<CameraTerm>(i);
             const double off = plain(term_of(fit->camera, term) - term_of(camera, term));
+            const double deviation = plain(term_of(fit->deviation, term));
             // Four standard deviations; k3 is held at 0.
-            EXPECT_LE(std::fabs(off), 4 * plain(term_of(fit->deviation, term))) << i << " " << noise;
+            EXPECT_LE(std::fabs(off), 4 * deviation) << i << " " << noise;
+            if (deviation > 0) squares += off * off / (deviation * deviation);
         }
+        // Deviations are no larger than they need be: the sum of eight squares whose mean is 1 each, of
+        // which some go together.
+        EXPECT_GT(squares, 0.8) << noise;
         EXPECT_EQ(fit->deviation.k3, Real());
         // Without the lens the fit is worse, and the linear start is not better than the fit.
         IntrinsicsOptions bare;

@@ -125,6 +125,27 @@ TEST(P3p, OnTheDangerousCylinderKnowsHalfOfTheDigits) {
     }
 }
 
+TEST(P3p, TellsNothingThatIsOffItsRays) {
+    // Rays that belong to no triangle, or to one by chance.
+    Random random(75);
+    int counts[5] = {};
+    for (int i = 0; i < 600; ++i) {
+        const auto points = random_object(random, 3, 1000);
+        if (*spread_of(span_of(points)) != PointSpread::plane) continue;
+        std::vector<Vector<3>> rays;
+        for (int k = 0; k < 3; ++k) rays.push_back(random_matrix<3, 1>(random));
+        const auto found = p3p(span_of(points), span_of(rays));
+        if (!found) {
+            ASSERT_EQ(found.status(), Status::not_found);
+            ++counts[0];
+            continue;
+        }
+        ++counts[found->count];
+        for (int k = 0; k < found->count; ++k) ASSERT_LE(off_rays(found->poses[k], points, rays), 1e-5) << i;
+    }
+    for (int count = 0; count < 3; ++count) EXPECT_GT(counts[count], 0) << count;
+}
+
 TEST(P3p, RefusesByName) {
     const std::vector<SpacePoint> points = {{0, 0, 0}, {100, 0, 0}, {0, 100, 0}};
     std::vector<Vector<3>> rays = rays_to({Matrix<3, 3>::identity(), vector_of({0, 0, 300})}, points);
@@ -179,6 +200,12 @@ TEST(Posit, RefusesByName) {
     EXPECT_EQ(status(), Status::out_of_range);
     for (SpacePoint& point : points) point.z = 3 * point.x - point.y;
     rays = rays_to({Matrix<3, 3>::identity(), vector_of({0, 0, 90000})}, points);
+    EXPECT_EQ(status(), Status::degenerate);
+    // A sheet: its products have an inverse, but it tells nothing.
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {random.between(-1000000, 1000000), random.between(-1000000, 1000000),
+                     static_cast<std::int32_t>(i % 2)};
+    rays = rays_to({Matrix<3, 3>::identity(), vector_of({0, 0, 9000000})}, points);
     EXPECT_EQ(status(), Status::degenerate);
     // Inside of the object there is no scaled projection to start from: it does not settle, or not in front.
     points = {{0, 0, 0}, {1000, 0, 100}, {0, 1000, -100}, {-1000, -900, 0}, {300, 200, 1000}};

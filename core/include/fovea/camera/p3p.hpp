@@ -7,7 +7,6 @@
 #include <fovea/base/status.hpp>
 #include <fovea/camera/pose.hpp>
 #include <fovea/linear/cubic.hpp>
-#include <fovea/linear/gauss.hpp>
 #include <fovea/linear/matrix.hpp>
 #include <fovea/match/point_pair.hpp>
 #include <fovea/match/point_spread.hpp>
@@ -37,8 +36,7 @@ struct PoseCandidates {
 /// Source    two cones in the three distances, whose pencil has a pair of planes; as in Persson and Nordberg,
 ///           "Lambda Twist: An Accurate Fast Robust Perspective Three Point (P3P) Solver", ECCV 2018. Here
 ///           the unknowns are one distance and the differences to it, so that long focal lengths lose no
-///           digits; the pair is taken apart by its adjugate in place of eigenvectors, and steps of Newton
-///           follow
+///           digits; the pair is taken apart by its adjugate in place of eigenvectors
 template <class Scalar = Real>
 constexpr Result<PoseCandidates<Scalar>> p3p(Span<const SpacePoint> points,
                                              NonDeduced<Span<const Vector<3, Scalar>>> rays);
@@ -212,16 +210,8 @@ public:
             if (!(zero < square)) return;
             const Scalar length = square_root(squares_[2] / square);
             place = place * (place[0] < zero ? -length : length);
-            Scalar error = error_of(place);
-            for (int i = 0; i < 6; ++i) {
-                const auto next = nearer(place);
-                if (!next) break;
-                const Scalar left = error_of(*next);
-                if (!(left < error)) break;
-                place = *next;
-                error = left;
-            }
-            if (scale(squares_[2], -16) < error) return;
+            // A pair of planes that is only nearly real leads to places that are none.
+            if (scale(squares_[2], -16) < error_of(place)) return;
             place[0] = place[0] / unit_;
             if (zero < place[0] && zero < place[0] + place[1] && zero < place[0] + place[2]) visit(place);
         });
@@ -232,19 +222,6 @@ private:
         Scalar sum = scalar_of<Scalar>(0);
         for (int i = 0; i < 3; ++i) sum = sum + absolute(dot(place, forms_[i] * place) - squares_[i]);
         return sum;
-    }
-    /// A step of Newton's.
-    constexpr Result<Vector<3, Scalar>> nearer(const Vector<3, Scalar>& place) const {
-        Matrix<3, 3, Scalar> slopes;
-        Vector<3, Scalar> errors;
-        for (int i = 0; i < 3; ++i) {
-            const Vector<3, Scalar> half = forms_[i] * place;
-            for (int k = 0; k < 3; ++k) slopes(i, k) = scale(half[k], 1);
-            errors[i] = squares_[i] - dot(place, half);
-        }
-        const auto step = solve_gauss(slopes, errors);
-        if (!step) return step.status();
-        return place + *step;
     }
 
     Conic<Scalar> forms_[3];
