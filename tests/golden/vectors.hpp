@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/calibration_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
 #include <golden/code_blur_vectors.hpp>
@@ -65,7 +66,9 @@ inline constexpr Vector vectors[] = {
     {"number/trigonometry", number_trigonometry},
     {"number/wide", number_wide},
     {"linear/cubic", linear_cubic},
+    {"linear/block_equations", linear_block_equations},
     {"linear/eigen", linear_eigen},
+    {"linear/levenberg_marquardt", linear_levenberg_marquardt},
     {"linear/matrices", linear_matrices},
     {"linear/solvers", linear_solvers},
     {"simd/lanes", simd_lanes},
@@ -137,6 +140,7 @@ inline constexpr Vector vectors[] = {
     {"camera/alignment", camera_alignment},
     {"camera/find_pose", camera_find_pose},
     {"camera/fisheye", camera_fisheye},
+    {"camera/calibrate_planar", camera_calibrate_planar},
     {"camera/lens", camera_lens},
     {"camera/object_pose", camera_object_pose},
     {"camera/planar_pose", camera_planar_pose},
@@ -151,6 +155,8 @@ inline constexpr Vector vectors[] = {
     {"stereo/rectify", stereo_rectify},
     {"stereo/rectify_zoom", stereo_rectify_zoom},
     {"stereo/triangulate", stereo_triangulate},
+    {"camera/projection_derivatives", camera_projection_derivatives},
+    {"stereo/calibrate_stereo", stereo_calibrate_stereo},
     {"code/blurred_ean", code_blurred_ean},
     {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},

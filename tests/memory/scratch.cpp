@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <fovea/camera/calibrate_planar.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <fovea/code/bar_stream.hpp>
 #include <fovea/code/read_bars.hpp>
@@ -22,6 +23,7 @@
 #include <fovea/measure/edge_probe.hpp>
 #include <fovea/motion/block_motion.hpp>
 #include <fovea/segment/connected_components.hpp>
+#include <fovea/stereo/calibrate_stereo.hpp>
 
 using namespace fovea;
 
@@ -86,6 +88,8 @@ int main() {
         {"measure_feature", [](Size size) { return measure_feature_scratch(size); }},
         {"gauge, 1 part", [](Size size) { return gauge_scratch(size, {}, 1); }},
         {"gauge, 16 parts", [](Size size) { return gauge_scratch(size, {}, 16); }},
+        {"calibrate_planar, 13 views", [](Size) { return calibrate_planar_scratch(13); }},
+        {"calibrate_stereo, 13 pairs", [](Size) { return calibrate_stereo_scratch(13); }},
         {"decode_jpeg to Gray8", [](Size) { return jpeg_gray_scratch; }},
         {"decode_jpeg to Rgb888, at most", [](Size size) { return jpeg_scratch(size); }},
         {"decode_png, 8 bits gray", [](Size size) { return png_reader_scratch(size, 8); }},

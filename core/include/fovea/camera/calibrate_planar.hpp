@@ -46,7 +46,7 @@ struct PlanarCalibration {
 template <class Scalar = Real>
 constexpr std::int64_t calibrate_planar_scratch(int views) {
     const std::int64_t scalars = block_equations_scratch<6>(camera_terms, views) + camera_terms;
-    return scalars * static_cast<int>(sizeof(Scalar)) +
+    return scalars * static_cast<int>(sizeof(Scalar)) + block_equations_words<6>(camera_terms) * 8 + 8 +
            std::int64_t{views} * static_cast<int>(sizeof(Pose<Scalar>)) +
            2 * static_cast<int>(alignof(Scalar));
 }
@@ -62,8 +62,9 @@ constexpr std::int64_t calibrate_planar_scratch(int views) {
 /// Time      bounded, see levenberg_marquardt(); 8 to 12 times all points for a usual camera
 /// Scratch   calibrate_planar_scratch<Scalar>(views) bytes, undefined afterwards
 /// Errors    see CalibrationProblem. parallel_views is answered where a focal length or the principal point
-///           has a standard deviation of more than an eighth of the focal length, which is what boards that
-///           are parallel leave. After an error fits and calibration are untouched
+///           has a standard deviation of more than an eighth of the focal length, and, if more than two of
+///           the four are estimated, where no board is tilted by 3.6 degrees to the first: only the lens, or
+///           noise, would decide then. After an error fits and calibration are untouched
 /// Source    Zhang, "A flexible new technique for camera calibration", IEEE PAMI 22(11), 2000; the start by
 ///           FocalStart in place of the closed form for five unknowns. Deviations from the inverse of the
 ///           normal equations times the variance that the residuals show
@@ -82,12 +83,12 @@ template <class Scalar>
 class PlanarSystem {
 public:
     PlanarSystem(Span<const PlanarView> views, const IntrinsicsOptions& options, Span<Pose<Scalar>> poses,
-                 Span<Scalar> row, Span<Scalar> equations)
+                 Span<Scalar> row, Span<Scalar> equations, Span<std::int64_t> words)
         : views_(views),
           terms_(options),
           poses_(poses),
           row_(row.first(terms_.count())),
-          equations_(terms_.count(), static_cast<int>(views.size()), equations) {}
+          equations_(terms_.count(), static_cast<int>(views.size()), equations, words) {}
 
     /// The state to start from.
     CalibrationVerdict start(Size picture);
@@ -132,14 +133,15 @@ CalibrationVerdict PlanarSystem<Scalar>::start(Size picture) {
     FocalStart<Scalar> focal(picture);
     for (int view = 0; view < equations_.views(); ++view) {
         const auto homography = fit_homography<Scalar>(views_[view].board, views_[view].seen);
-        if (!homography) return {CalibrationProblem::collinear_points, view};
+        if (!homography) return {problem_of_homography(homography.status(), views_[view].board), view};
         focal.add(*homography);
+        // Kept where the pose will stand.
+        poses_[view].rotation = *homography;
     }
     camera_ = focal.camera();
     if (terms_.square()) camera_.fy = camera_.fx;
     for (int view = 0; view < equations_.views(); ++view) {
-        const auto homography = fit_homography<Scalar>(views_[view].board, views_[view].seen);
-        const auto pose = pose_of_plane(camera_, *homography);
+        const auto pose = pose_of_plane(camera_, poses_[view].rotation);
         if (!pose) return {CalibrationProblem::collinear_points, view};
         poses_[view] = *pose;
         if (!cost_of(view)) return {CalibrationProblem::board_behind, view};
@@ -164,6 +166,7 @@ Status PlanarSystem<Scalar>::linearise() {
             }
         }
     }
+    equations_.finish();
     return Status::ok;
 }
 
@@ -214,16 +217,15 @@ CalibrationVerdict calibrate_planar(Span<const PlanarView> views, Size picture,
     Arena arena(scratch);
     const auto poses = arena.take<Pose<Scalar>>(count);
     const auto row = arena.take<Scalar>(camera_terms);
+    const auto words = arena.take<std::int64_t>(block_equations_words<6>(terms.count()));
     const auto room = arena.take<Scalar>(block_equations_scratch<6>(terms.count(), count));
-    detail::PlanarSystem<Scalar> system(views, options, poses, row, room);
+    detail::PlanarSystem<Scalar> system(views, options, poses, row, room, words);
     verdict = system.start(picture);
     if (!verdict.ok()) return verdict;
 
     PlanarCalibration<Scalar> result;
-    Status status = detail::descend(system, LevenbergMarquardtOptions(), result.refinement);
-    Scalar gain = scalar_of<Scalar>(0);
-    if (status == Status::ok) status = system.solve(detail::undamped, gain);
-    if (status != Status::ok) return {CalibrationProblem::parallel_views, -1};
+    const CalibrationProblem problem = detail::refine<Scalar>(system, terms, poses, result.refinement);
+    if (problem != CalibrationProblem::none) return {problem, -1};
     const std::int64_t points = system.points();
     const std::int64_t spare = 2 * points - terms.count() - std::int64_t{6} * count;
     const Scalar variance = result.refinement.cost / scalar_of<Scalar>(spare);

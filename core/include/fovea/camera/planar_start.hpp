@@ -3,12 +3,20 @@
 // A camera and poses to start from, out of homographies between a board and its pictures.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/camera/calibration.hpp>
 #include <fovea/camera/camera.hpp>
 #include <fovea/camera/pose.hpp>
 #include <fovea/image/geometry.hpp>
+#include <fovea/linear/levenberg_marquardt.hpp>
 #include <fovea/linear/matrix.hpp>
+#include <fovea/match/fit_homography.hpp>
+#include <fovea/match/point_pair.hpp>
+#include <fovea/number/int128.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/number/scalar.hpp>
 
@@ -30,8 +38,8 @@ public:
     constexpr explicit FocalStart(Size picture);
 
     constexpr void add(const Matrix<3, 3, Scalar>& homography);
-    /// Where the homographies leave the two open, or tell pixels that are twice as wide as high, one for both;
-    /// where they leave that open too, the longer side of the picture.
+    /// Where the homographies leave the two open, or tell pixels that are twice as wide as high, one for
+    /// both; where they leave that open too, the longer side of the picture.
     constexpr Camera<Scalar> camera() const;
 
 private:
@@ -137,4 +145,71 @@ constexpr Result<Pose<Scalar>> pose_of_plane(const Camera<Scalar>& camera,
                         h[2] * share};
 }
 
+namespace detail {
+
+/// Whether all points but one at most lie on the line through two of them.
+constexpr bool on_a_line(Span<const PlanePoint> board, std::ptrdiff_t first, std::ptrdiff_t second) {
+    const std::int64_t x = std::int64_t{board[second].x} - board[first].x;
+    const std::int64_t y = std::int64_t{board[second].y} - board[first].y;
+    if (x == 0 && y == 0) return false;
+    int beside = 0;
+    for (const PlanePoint point : board) {
+        const std::int64_t dx = std::int64_t{point.x} - board[first].x;
+        const std::int64_t dy = std::int64_t{point.y} - board[first].y;
+        if (Int128::product(x, dy) != Int128::product(y, dx)) ++beside;
+    }
+    return beside <= 1;
+}
+
+/// Why a board has no homography to its picture.
+constexpr CalibrationProblem problem_of_homography(Status status, Span<const PlanePoint> board) {
+    if (status != Status::degenerate) return CalibrationProblem::bad_argument;
+    // Three points, two of which are on any line that all but one are on; equal ones are not asked for more.
+    std::ptrdiff_t other = 1;
+    while (other < board.size() && board[other] == board[0]) ++other;
+    if (other == board.size()) return CalibrationProblem::collinear_points;
+    std::ptrdiff_t third = other + 1;
+    while (third < board.size() && (board[third] == board[0] || board[third] == board[other])) ++third;
+    if (third == board.size() || on_a_line(board, 0, other) || on_a_line(board, 0, third) ||
+        on_a_line(board, other, third))
+        return CalibrationProblem::collinear_points;
+    return CalibrationProblem::board_behind;
+}
+
+/// Whether no board is tilted to the first: the sine of the angle between their normals is below 1/16.
+template <class Scalar>
+constexpr bool all_parallel(Span<const Pose<Scalar>> poses) {
+    for (std::ptrdiff_t view = 1; view < poses.size(); ++view) {
+        const Vector<3, Scalar> across = cross(poses[0].rotation.column(2), poses[view].rotation.column(2));
+        if (scalar_of<Scalar>(1, -8) < dot(across, across)) return false;
+    }
+    return true;
+}
+
+/// The way down of a calibration, and the last equations solved without damping. Where boards that are
+/// parallel leave the camera open the way has no end: that is looked for early.
+template <class Scalar, class System>
+constexpr CalibrationProblem refine(System& system, const FreeTerms& terms, Span<const Pose<Scalar>> poses,
+                                    Refinement<Scalar>& refinement) {
+    const bool tilted = terms.of_pinhole() > 2;
+    LevenbergMarquardtOptions options;
+    const int most = options.most_linearisations;
+    options.most_linearisations = 25;
+    Status status = descend(system, options, refinement);
+    if (status == Status::ok && !refinement.converged) {
+        if (tilted && all_parallel(poses)) return CalibrationProblem::parallel_views;
+        const Refinement<Scalar> before = refinement;
+        options.most_linearisations = most - before.linearisations;
+        status = descend(system, options, refinement);
+        refinement.linearisations += before.linearisations;
+        refinement.costs += before.costs;
+    }
+    Scalar gain = scalar_of<Scalar>(0);
+    if (status == Status::ok) status = system.solve(undamped, gain);
+    // What leaves an unknown open, or leads behind the camera.
+    const bool open = status != Status::ok || (tilted && all_parallel(poses));
+    return open ? CalibrationProblem::parallel_views : CalibrationProblem::none;
+}
+
+}  // namespace detail
 }  // namespace fovea
