@@ -67,9 +67,8 @@ public:
         largest_ = std::max(largest_, std::abs(error));
         ++count_;
     }
-    void print(const char* name, const char* unit) const {
-        std::printf("| %s, %s | %.2g | %.2g |\n", name, unit, count_ == 0 ? 0 : std::sqrt(squares_ / count_),
-                    largest_);
+    void print() const {
+        std::printf(" %.2g, %.2g |", count_ == 0 ? 0 : std::sqrt(squares_ / count_), largest_);
     }
 
 private:
@@ -243,22 +242,39 @@ struct Study {
     }
 };
 
-void print_noise(double noise) {
-    Random random(2026);
-    Study study;
-    for (int i = 0; i < 200; ++i) study.one_rig(random, noise, i);
-    std::printf(
-        "\nNoise of %.2f px: %d failures of 200 pairs. Of the pairs that belong together %.1f %% agree, of "
-        "wrong ones %.1f %%; %d not certain.\n\n| | rms | largest |\n|---|---|---|\n",
-        noise, study.failures, study.agreeing / 132.0, study.wrong / 68.0, study.uncertain);
-    study.rows.print("rectified rows", "px");
-    study.midpoint.print("place, middle of rays", "of its depth");
-    study.optimal.print("place, optimal", "of its depth");
-    study.disparity.print("place, by disparity", "of its depth");
-    study.turn.print("turn, from rays", "degrees");
-    study.baseline.print("direction of the baseline, from rays", "degrees");
-    study.epipolar.print("epipolar lines, from pixels", "px");
-    study.uncalibrated.print("rows, rectified without cameras", "px");
+void print_noise() {
+    constexpr double noises[] = {0, 0.2, 0.5};
+    Study studies[3];
+    for (int k = 0; k < 3; ++k) {
+        Random random(2026);
+        for (int i = 0; i < 200; ++i) studies[k].one_rig(random, noises[k], i);
+    }
+    std::printf("| root of the mean square, largest | noise 0 | 0.2 px | 0.5 px |\n|---|---|---|---|\n");
+    const struct {
+        const char* name;
+        Errors Study::*errors;
+    } rows[] = {{"rectified rows, px", &Study::rows},
+                {"place, `midpoint`, of its depth", &Study::midpoint},
+                {"place, `optimal`, of its depth", &Study::optimal},
+                {"place, by disparity, of its depth", &Study::disparity},
+                {"turn of `recover_pose`, degrees", &Study::turn},
+                {"its direction of the baseline, degrees", &Study::baseline},
+                {"lines of `fit_fundamental_ransac` from pixels without noise, px", &Study::epipolar},
+                {"rows of `rectify_uncalibrated`, px", &Study::uncalibrated}};
+    for (const auto& row : rows) {
+        std::printf("| %s |", row.name);
+        for (const Study& study : studies) (study.*row.errors).print();
+        std::printf("\n");
+    }
+    const auto counts = [&](const char* name, auto count) {
+        std::printf("| %s |", name);
+        for (const Study& study : studies) std::printf(" %g |", count(study));
+        std::printf("\n");
+    };
+    counts("right pairs that agree, %", [](const Study& study) { return study.agreeing / 132.0; });
+    counts("wrong pairs that agree by chance, %", [](const Study& study) { return study.wrong / 68.0; });
+    counts("not `certain`, of 200", [](const Study& study) { return 1.0 * study.uncertain; });
+    counts("failures, of 200", [](const Study& study) { return 1.0 * study.failures; });
 }
 
 void print_digits() {
@@ -307,7 +323,7 @@ void print_digits() {
 }  // namespace
 
 int main() {
-    for (const double noise : {0.0, 0.2, 0.5}) print_noise(noise);
+    print_noise();
     print_digits();
     return 0;
 }
