@@ -22,6 +22,7 @@
 #include <fovea/linear/cubic.hpp>
 #include <fovea/match/point_spread.hpp>
 #include <fovea/number/arctangent.hpp>
+#include <golden/calibration_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/digest.hpp>
 #include <golden/number_vectors.hpp>
@@ -29,10 +30,6 @@
 
 namespace fovea::golden {
 
-inline void put(Digest& digest, const Camera<>& camera) {
-    digest.add(camera.fx, camera.fy, camera.cx, camera.cy, camera.k1, camera.k2, camera.k3, camera.p1,
-               camera.p2);
-}
 inline void put(Digest& digest, const CameraView<>& view) { digest.add(view.camera, view.pose, view.skew); }
 inline void put(Digest& digest, const Ray<>& ray) { digest.add(ray.point, ray.direction); }
 inline void put(Digest& digest, const ViewFit<>& fit) {
