@@ -12,6 +12,7 @@
 #include <fovea/camera/find_pose.hpp>
 #include <fovea/camera/planar_pose.hpp>
 #include <fovea/camera/posit.hpp>
+#include <support/board_corners.hpp>
 #include <support/object_scene.hpp>
 
 namespace fovea::test {
@@ -175,6 +176,33 @@ TEST(PlanarPose, FromTheFrontThereIsOne) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->count, 1);
     EXPECT_LE(difference(found->fits[0].pose, pose), 1e-4);
+}
+
+TEST(PlanarPose, OfAPhotographedBoardIsThatOfItsCalibration) {
+    // The camera of calibrate_planar_test.cpp: with it fixed, the best pose of each view is the one that the
+    // calibration has, and so are the squares.
+    Camera<> camera;
+    camera.fx = real_of(536.454766207);
+    camera.fy = real_of(536.406519322);
+    camera.cx = real_of(342.367759491);
+    camera.cy = real_of(235.542658456);
+    camera.k1 = real_of(-0.2786528930);
+    camera.k2 = real_of(0.0672480489);
+    camera.p1 = real_of(0.00182148412);
+    camera.p2 = real_of(-0.00034478546);
+    constexpr BoardCorners corners = board_corners();
+    std::vector<SubPixelPoint> scratch(board_points);
+    double squares = 0;
+    for (const auto& seen : corners.left) {
+        const auto found = planar_pose(Span<const PlanePoint>(corners.board), Span<const SubPixelPoint>(seen),
+                                       camera, Span<SubPixelPoint>(scratch.data(), board_points));
+        ASSERT_TRUE(found);
+        squares += plain(found->fits[0].rms) * plain(found->fits[0].rms) / board_views;
+        if (found->count == 2) {
+            EXPECT_GT(plain(found->fits[1].rms), 2 * plain(found->fits[0].rms));
+        }
+    }
+    EXPECT_NEAR(std::sqrt(squares), 0.408256475887, 1e-11);
 }
 
 TEST(PosesOfPlane, AgreeInTheSlopesAtTheirPlace) {
