@@ -33,6 +33,7 @@
 #include <golden/motion_vectors.hpp>
 #include <golden/number_vectors.hpp>
 #include <golden/operator_vectors.hpp>
+#include <golden/pose_vectors.hpp>
 #include <golden/segment_vectors.hpp>
 #include <golden/statistics_vectors.hpp>
 #include <golden/stereo_vectors.hpp>
@@ -55,6 +56,7 @@ inline constexpr Vector vectors[] = {
     {"base/order", base_order},
     {"base/random", base_random},
     {"number/angle_and_fixed", number_angle},
+    {"number/arctangent", number_arctangent},
     {"number/decimal", number_decimal},
     {"number/int128", number_int128},
     {"number/integer", number_integer},
@@ -63,6 +65,7 @@ inline constexpr Vector vectors[] = {
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
     {"number/wide", number_wide},
+    {"linear/cubic", linear_cubic},
     {"linear/block_equations", linear_block_equations},
     {"linear/eigen", linear_eigen},
     {"linear/levenberg_marquardt", linear_levenberg_marquardt},
@@ -134,11 +137,18 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"camera/alignment", camera_alignment},
+    {"camera/find_pose", camera_find_pose},
+    {"camera/fisheye", camera_fisheye},
     {"camera/calibrate_planar", camera_calibrate_planar},
     {"camera/lens", camera_lens},
+    {"camera/object_pose", camera_object_pose},
+    {"camera/planar_pose", camera_planar_pose},
     {"camera/poses", camera_poses},
     {"camera/projection_derivatives", camera_projection_derivatives},
     {"stereo/calibrate_stereo", stereo_calibrate_stereo},
+    {"camera/projection", camera_projection},
+    {"camera/view_fit", camera_view_fit},
     {"stereo/epipolar", stereo_epipolar},
     {"stereo/essential", stereo_essential},
     {"stereo/essential_ransac", stereo_essential_ransac},
@@ -147,6 +157,8 @@ inline constexpr Vector vectors[] = {
     {"stereo/rectify", stereo_rectify},
     {"stereo/rectify_zoom", stereo_rectify_zoom},
     {"stereo/triangulate", stereo_triangulate},
+    {"camera/projection_derivatives", camera_projection_derivatives},
+    {"stereo/calibrate_stereo", stereo_calibrate_stereo},
     {"code/blurred_ean", code_blurred_ean},
     {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},
