@@ -64,6 +64,11 @@ inline void base_random(Workspace&, Digest& digest) {
         digest.add(random.between(-i, i * i));
         digest.add(random.between(std::numeric_limits<int>::min(), std::numeric_limits<int>::max() - 1));
     }
+    for (int i = 4; i <= 20; ++i) {
+        std::ptrdiff_t chosen[4] = {};
+        draw_different(random, i, chosen);
+        for (const std::ptrdiff_t number : chosen) digest.add(number);
+    }
 }
 
 inline void base_order(Workspace&, Digest& digest) {
@@ -156,6 +161,7 @@ inline void number_int128(Workspace&, Digest& digest) {
         const std::int64_t b = wide_random(random) >> 1;
         const std::int64_t c = wide_random(random) >> 1 | 1;
         const Int128 product = Int128::product(a, b);
+        digest.add(Int128::product_in_words(a, b));
         const Int128 wide = (product >> 30) * (c >> 40);
         Int128 sum = product;
         sum += Int128(c);

@@ -26,6 +26,7 @@
 #include <golden/filter_vectors.hpp>
 #include <golden/image_vectors.hpp>
 #include <golden/light_section_vectors.hpp>
+#include <golden/match_vectors.hpp>
 #include <golden/measure_vectors.hpp>
 #include <golden/morphology_vectors.hpp>
 #include <golden/motion_vectors.hpp>
@@ -117,12 +118,15 @@ inline constexpr Vector vectors[] = {
     {"feature/harris_points", feature_harris_points},
     {"feature/hough_circles", feature_hough_circles},
     {"feature/hough_lines", feature_hough_lines},
+    {"match/fits", match_fits},
+    {"match/ransac", match_ransac},
     {"measure/edge_probe", measure_edge_probe},
     {"measure/edge_straightness", measure_edge_straightness},
     {"measure/fit_circle", measure_fit_circle},
     {"measure/fit_line", measure_fit_line},
     {"measure/half_turn", measure_half_turn},
     {"measure/least_median", measure_least_median},
+    {"measure/ransac", measure_ransac},
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},

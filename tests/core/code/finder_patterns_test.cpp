@@ -169,8 +169,8 @@ TEST(FinderFrame, MeasuresModulesAndEdges) {
         Finders finders(160, 160);
         finders.draw(80, 80, module, angle);
         FinderFrame frame;
-        const PlanePoint right{std::llround(25600 * std::cos(angle)), std::llround(25600 * std::sin(angle))};
-        const PlanePoint down{-right.y, right.x};
+        const ModulePoint right{std::llround(25600 * std::cos(angle)), std::llround(25600 * std::sin(angle))};
+        const ModulePoint down{-right.y, right.x};
         ASSERT_TRUE(frame.measure({finders.view(), false}, pixel_place(80, 80), std::llround(module * 256),
                                   right, down))
             << round;
@@ -180,7 +180,7 @@ TEST(FinderFrame, MeasuresModulesAndEdges) {
         PlaceLine edge;
         ASSERT_TRUE(frame.edge(frame.u(), frame.v(), edge)) << round;
         // Half of seven modules away.
-        const PlanePoint along = edge.to - edge.from;
+        const ModulePoint along = edge.to - edge.from;
         const double away = static_cast<double>(cross_product(along, frame.centre() - edge.from)) /
                             static_cast<double>(length(along)) / 256;
         EXPECT_NEAR(std::abs(away), 3.5 * module, 0.6) << round;
@@ -190,8 +190,8 @@ TEST(FinderFrame, MeasuresModulesAndEdges) {
 TEST(FinderFrame, RefusesWhatIsNoFinder) {
     Finders finders(100, 100);
     FinderFrame frame;
-    const PlanePoint right{25600, 0};
-    const PlanePoint down{0, 25600};
+    const ModulePoint right{25600, 0};
+    const ModulePoint down{0, 25600};
     EXPECT_FALSE(frame.measure({finders.view(), false}, pixel_place(50, 50), 1024, right, down));
     EXPECT_FALSE(frame.measure({finders.view(), false}, pixel_place(-500, 50), 1024, right, down));
     EXPECT_FALSE(frame.measure({finders.view(), false}, pixel_place(50, 50), 1024, {0, 0}, down));

@@ -14,14 +14,14 @@ namespace {
 
 using namespace fovea::detail;
 
-constexpr PlanePoint corners[4] = {{0, 0}, {21 * 16, 0}, {21 * 16, 21 * 16}, {0, 21 * 16}};
+constexpr ModulePoint corners[4] = {{0, 0}, {21 * 16, 0}, {21 * 16, 21 * 16}, {0, 21 * 16}};
 
 TEST(ModulePlane, MapsASquareUpright) {
-    const PlanePoint places[4] = {
+    const ModulePoint places[4] = {
         {1000, 2000}, {1000 + 21 * 512, 2000}, {1000 + 21 * 512, 2000 + 21 * 512}, {1000, 2000 + 21 * 512}};
     const Result<ModulePlane> plane = ModulePlane::through(corners, places);
     ASSERT_TRUE(plane.ok());
-    const PlanePoint middle = (*plane)({21 * 8, 21 * 8});
+    const ModulePoint middle = (*plane)({21 * 8, 21 * 8});
     EXPECT_NEAR(static_cast<double>(middle.x), 1000 + 21 * 256, 1);
     EXPECT_NEAR(static_cast<double>(middle.y), 2000 + 21 * 256, 1);
 }
@@ -30,10 +30,10 @@ TEST(ModulePlane, EqualsAHomographyInRealNumbers) {
     Random random(161);
     for (int round = 0; round < 300; ++round) {
         const int size = random.between(21, 177);
-        const PlanePoint modules[4] = {
+        const ModulePoint modules[4] = {
             {56, 56}, {size * 16 - 56, 56}, {size * 16 - 104, size * 16 - 104}, {56, size * 16 - 56}};
         const double scale = uniform(random, 40, 8000);
-        PlanePoint places[4];
+        ModulePoint places[4];
         Eigen::Matrix<double, 8, 8> rows;
         Eigen::Matrix<double, 8, 1> right;
         for (int i = 0; i < 4; ++i) {
@@ -57,11 +57,11 @@ TEST(ModulePlane, EqualsAHomographyInRealNumbers) {
         for (int i = 0; i < size; ++i) {
             const double u = 8 + 16 * i;
             const double w = h(6) * u + h(7) * 200 + 1;
-            const PlanePoint place = walk.next();
+            const ModulePoint place = walk.next();
             // Rounded toward zero, and coefficients to 2^-28 of themselves.
             EXPECT_NEAR(static_cast<double>(place.x), (h(0) * u + h(1) * 200 + h(2)) / w, 3);
             EXPECT_NEAR(static_cast<double>(place.y), (h(3) * u + h(4) * 200 + h(5)) / w, 3);
-            const PlanePoint alone = (*plane)({8 + 16 * i, 200});
+            const ModulePoint alone = (*plane)({8 + 16 * i, 200});
             EXPECT_EQ(place.x, alone.x);
             EXPECT_EQ(place.y, alone.y);
         }
@@ -69,8 +69,8 @@ TEST(ModulePlane, EqualsAHomographyInRealNumbers) {
 }
 
 TEST(ModulePlane, RefusesWhatIsNoPlaneInFrontOfACamera) {
-    const auto status = [](PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d) {
-        const PlanePoint places[4] = {a, b, c, d};
+    const auto status = [](ModulePoint a, ModulePoint b, ModulePoint c, ModulePoint d) {
+        const ModulePoint places[4] = {a, b, c, d};
         return ModulePlane::through(corners, places).status();
     };
     EXPECT_EQ(status({0, 0}, {100, 0}, {200, 0}, {300, 0}), Status::degenerate);
@@ -81,7 +81,7 @@ TEST(ModulePlane, RefusesWhatIsNoPlaneInFrontOfACamera) {
 }
 
 TEST(ModulePlane, LinesMeetWhereTheyCross) {
-    PlanePoint place;
+    ModulePoint place;
     ASSERT_TRUE(meet({{0, 0}, {1000, 1000}}, {{0, 1000}, {1000, 0}}, place));
     EXPECT_EQ(place.x, 500);
     EXPECT_EQ(place.y, 500);

@@ -58,7 +58,8 @@ private:
 
 /// Whether planes put the corners of a symbol at the same places.
 bool same(const ModulePlane& a, const ModulePlane& b, int size) {
-    for (const PlanePoint corner : {module_corner(0, 0), module_corner(size, 0), module_corner(size, size)}) {
+    for (const ModulePoint corner :
+         {module_corner(0, 0), module_corner(size, 0), module_corner(size, size)}) {
         if (a(corner).x != b(corner).x || a(corner).y != b(corner).y) return false;
     }
     return true;

@@ -70,7 +70,7 @@ TEST(DrawDifferent, DrawsEveryPairEquallyOften) {
     constexpr int draws = 10000;
     for (int i = 0; i < draws; ++i) {
         std::ptrdiff_t chosen[2] = {};
-        detail::draw_different(random, 5, chosen);
+        draw_different(random, 5, chosen);
         ASSERT_TRUE(chosen[0] >= 0 && chosen[0] < chosen[1] && chosen[1] < 5);
         ++count[chosen[0]][chosen[1]];
     }

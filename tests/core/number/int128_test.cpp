@@ -35,6 +35,7 @@ TEST(Int128, MultipliesAddsAndShiftsAsTheCompilerDoes) {
         const Int128 product = Int128::product(a, b);
         const Native expected = static_cast<Native>(a) * b;
         ASSERT_EQ(native(product), expected);
+        ASSERT_EQ(native(Int128::product_in_words(a, b)), expected);
         ASSERT_EQ(native(product + Int128(c)), expected + c);
         ASSERT_EQ(native(product - Int128(c)), expected - c);
         ASSERT_EQ(native(-product), -expected);
@@ -50,6 +51,8 @@ TEST(Int128, MultipliesAddsAndShiftsAsTheCompilerDoes) {
 TEST(Int128, ProductTakesTheMostNegativeNumber) {
     EXPECT_EQ(native(Int128::product(INT64_MIN, INT64_MIN)), static_cast<Native>(1) << 126);
     EXPECT_EQ(native(Int128::product(INT64_MIN, 1)), static_cast<Native>(INT64_MIN));
+    EXPECT_EQ(native(Int128::product_in_words(INT64_MIN, INT64_MIN)), static_cast<Native>(1) << 126);
+    EXPECT_EQ(native(Int128::product_in_words(INT64_MIN, 1)), static_cast<Native>(INT64_MIN));
 }
 
 TEST(Hypotenuse, IsTheLengthRoundedDown) {

@@ -3,6 +3,7 @@
 // Seeded random numbers, the same on every machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <fovea/base/assert.hpp>
@@ -49,5 +50,21 @@ private:
     std::uint64_t state_ = 0;
     std::uint64_t increment_;
 };
+
+/// Different numbers 0..bound-1, ascending. bound is at least N.
+template <std::size_t N>
+constexpr void draw_different(Random& random, std::ptrdiff_t bound, std::ptrdiff_t (&chosen)[N]) {
+    const int count = static_cast<int>(N);
+    for (int k = 0; k < count; ++k) {
+        auto next = static_cast<std::ptrdiff_t>(random.below(static_cast<std::uint32_t>(bound - k)));
+        int place = 0;
+        while (place < k && next >= chosen[place]) {
+            ++next;
+            ++place;
+        }
+        for (int i = k; i > place; --i) chosen[i] = chosen[i - 1];
+        chosen[place] = next;
+    }
+}
 
 }  // namespace fovea

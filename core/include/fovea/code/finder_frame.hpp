@@ -13,13 +13,13 @@ namespace fovea::detail {
 
 /// A straight line through two places in 1/256 px.
 struct PlaceLine {
-    PlanePoint from;
-    PlanePoint to;
+    ModulePoint from;
+    ModulePoint to;
 };
 /// Where two lines meet; false for parallel ones. Places below 2^24 give cross products below 2^50.
-constexpr bool meet(const PlaceLine& a, const PlaceLine& b, PlanePoint& place) {
-    const PlanePoint along = a.to - a.from;
-    const PlanePoint other = b.to - b.from;
+constexpr bool meet(const PlaceLine& a, const PlaceLine& b, ModulePoint& place) {
+    const ModulePoint along = a.to - a.from;
+    const ModulePoint other = b.to - b.from;
     const std::int64_t divisor = cross_product(along, other);
     if (divisor == 0) return false;
     const std::int64_t share = cross_product(b.from - a.from, other);
@@ -33,8 +33,8 @@ constexpr bool meet(const PlaceLine& a, const PlaceLine& b, PlanePoint& place) {
 class FinderFrame {
 public:
     /// Measures along two ways that lead to other finders. False where it does not look like one.
-    bool measure(const FinderImage& image, PlanePoint centre, std::int64_t module, PlanePoint towards_u,
-                 PlanePoint towards_v) {
+    bool measure(const FinderImage& image, ModulePoint centre, std::int64_t module, ModulePoint towards_u,
+                 ModulePoint towards_v) {
         image_ = image;
         centre_ = centre;
         if (!measure_axis(towards_u, module, u_) || !measure_axis(towards_v, module, v_)) return false;
@@ -43,15 +43,15 @@ public:
         return true;
     }
 
-    PlanePoint centre() const { return centre_; }
+    ModulePoint centre() const { return centre_; }
     /// A module's way to the right and down.
-    PlanePoint u() const { return u_; }
-    PlanePoint v() const { return v_; }
-    PlanePoint at(std::int64_t half_modules_u, std::int64_t half_modules_v) const {
+    ModulePoint u() const { return u_; }
+    ModulePoint v() const { return v_; }
+    ModulePoint at(std::int64_t half_modules_u, std::int64_t half_modules_v) const {
         return centre_ + (u_ * half_modules_u + v_ * half_modules_v) / 2;
     }
     /// The outer edge on the side of a way, u() or v() or against one of them. False where it is not seen.
-    bool edge(PlanePoint outward, PlanePoint along, PlaceLine& line) const {
+    bool edge(ModulePoint outward, ModulePoint along, PlaceLine& line) const {
         Crossing seen[lines];
         int count = 0;
         for (int t = -reach; t <= reach; ++t) {
@@ -116,13 +116,13 @@ private:
     /// How far the outer edge is from the centre along a way of a known length, in 1/256 px; 0 if there is
     /// none within seven modules. Where it is farther than the inner edge of the ring allows, or not there,
     /// that one tells.
-    std::int64_t extent(PlanePoint way, std::int64_t way_length, std::int64_t module) const {
+    std::int64_t extent(ModulePoint way, std::int64_t way_length, std::int64_t module) const {
         const std::int64_t step = maximum<std::int64_t>(module / 8, 48);
         bool dark = true;
         int changes = 0;
         std::int64_t inner = 0;
         for (std::int64_t s = 0; s < 7 * module; s += step) {
-            const PlanePoint place = centre_ + way * s / way_length;
+            const ModulePoint place = centre_ + way * s / way_length;
             if (image_.dark(place) == dark) continue;
             dark = !dark;
             ++changes;
@@ -131,7 +131,7 @@ private:
         }
         return inner * 7 / 5;
     }
-    bool measure_axis(PlanePoint towards, std::int64_t module, PlanePoint& axis) {
+    bool measure_axis(ModulePoint towards, std::int64_t module, ModulePoint& axis) {
         const std::int64_t way = length(towards);
         if (way == 0) return false;
         const std::int64_t forward = extent(towards, way, module);
@@ -146,16 +146,16 @@ private:
         if (!edge(u_, v_, right) || !edge(u_ * -1, v_, left) || !edge(v_, u_, below) ||
             !edge(v_ * -1, u_, above))
             return false;
-        PlanePoint corner[4];
+        ModulePoint corner[4];
         if (!meet(above, left, corner[0]) || !meet(above, right, corner[1]) ||
             !meet(below, right, corner[2]) || !meet(below, left, corner[3]))
             return false;
-        PlanePoint middle;
+        ModulePoint middle;
         if (!meet({corner[0], corner[2]}, {corner[1], corner[3]}, middle)) return false;
         const std::int64_t module = maximum(length(u_), length(v_));
         if (length(middle - centre_) * 4 > 3 * module) return false;
-        const PlanePoint u = (corner[1] - corner[0] + corner[2] - corner[3]) / 14;
-        const PlanePoint v = (corner[3] - corner[0] + corner[2] - corner[1]) / 14;
+        const ModulePoint u = (corner[1] - corner[0] + corner[2] - corner[3]) / 14;
+        const ModulePoint v = (corner[3] - corner[0] + corner[2] - corner[1]) / 14;
         if (length(u - u_) * 2 > module || length(v - v_) * 2 > module) return false;
         centre_ = middle;
         u_ = u;
@@ -163,7 +163,7 @@ private:
         return true;
     }
     /// Where a line outward from a place beside the centre leaves the dark ring, in 1/256 of outward.
-    bool crossing(PlanePoint start, PlanePoint outward, std::int64_t& place) const {
+    bool crossing(ModulePoint start, ModulePoint outward, std::int64_t& place) const {
         const auto dark = [&](std::int64_t s) { return image_.dark(start + outward * s / 256); };
         constexpr std::int64_t ring = 3 * 256;
         constexpr std::int64_t step = 48;
@@ -189,9 +189,9 @@ private:
     }
 
     FinderImage image_;
-    PlanePoint centre_;
-    PlanePoint u_;
-    PlanePoint v_;
+    ModulePoint centre_;
+    ModulePoint u_;
+    ModulePoint v_;
 };
 
 }  // namespace fovea::detail

@@ -16,7 +16,7 @@
 namespace fovea::detail {
 
 struct FinderPattern {
-    PlanePoint centre;        ///< 1/256 px
+    ModulePoint centre;       ///< 1/256 px
     std::int64_t module = 0;  ///< 1/256 px, about
     bool inverted = false;    ///< light where others are dark
     int lines = 1;            ///< rows that crossed it
@@ -33,7 +33,7 @@ struct FinderImage {
     bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < bits.width() && y < bits.height(); }
     bool dark(int x, int y) const { return inside(x, y) && bits(x, y) != inverted; }
     /// At a place, to the nearest pixel.
-    bool dark(PlanePoint place) const {
+    bool dark(ModulePoint place) const {
         return dark(static_cast<int>((place.x + 128) >> 8), static_cast<int>((place.y + 128) >> 8));
     }
 };
@@ -248,8 +248,8 @@ private:
         return false;
     }
     /// Whether a row that crosses a pattern there is likely to cross the known one.
-    static bool close(const FinderPattern& known, PlanePoint centre, std::int64_t module, bool inverted) {
-        const PlanePoint away = known.centre - centre;
+    static bool close(const FinderPattern& known, ModulePoint centre, std::int64_t module, bool inverted) {
+        const ModulePoint away = known.centre - centre;
         const std::uint64_t near = magnitude(minimum(known.module, module) * 5 / 2);
         return known.inverted == inverted && magnitude(away.x) < near && magnitude(away.y) < near;
     }
@@ -265,13 +265,13 @@ private:
     }
     /// A circle of 2.3 modules is in the light ring in every direction of the sides, one of 1.2 in the dark
     /// middle. Sines of sixteenths of a turn, in 1/256.
-    static int rings(const FinderImage& image, PlanePoint centre, std::int64_t width, std::int64_t height) {
+    static int rings(const FinderImage& image, ModulePoint centre, std::int64_t width, std::int64_t height) {
         constexpr int sine[20] = {0,    98,   181,  237,  256,  237, 181, 98, 0,   -98,
                                   -181, -237, -256, -237, -181, -98, 0,   98, 181, 237};
         int right = 0;
         // Until they are too few even if all that follow are right.
         for (int i = 0; i < 16 && right + most_finder_rings - (3 * i + 1) / 2 >= least_rings; ++i) {
-            const PlanePoint way{sine[i + 4] * width, sine[i] * height};
+            const ModulePoint way{sine[i + 4] * width, sine[i] * height};
             right += image.dark(centre + way * 23 / 70) ? 0 : 1;
             if (i % 2 == 0) right += image.dark(centre + way * 12 / 70) ? 1 : 0;
         }

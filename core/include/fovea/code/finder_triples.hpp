@@ -71,8 +71,8 @@ private:
             set(triple, b, c, a);
         else
             set(triple, c, a, b);
-        const PlanePoint u = patterns_[triple.pattern[1]].centre - patterns_[triple.pattern[0]].centre;
-        const PlanePoint v = patterns_[triple.pattern[2]].centre - patterns_[triple.pattern[0]].centre;
+        const ModulePoint u = patterns_[triple.pattern[1]].centre - patterns_[triple.pattern[0]].centre;
+        const ModulePoint v = patterns_[triple.pattern[2]].centre - patterns_[triple.pattern[0]].centre;
         const std::int64_t across = length(u);
         const std::int64_t along = length(v);
         const std::int64_t shorter = minimum(across, along);
@@ -88,8 +88,8 @@ private:
     }
     /// right and below in the order of one who reads: what turns from right to below turns clockwise.
     void set(Triple& triple, int corner, int one, int other) const {
-        const PlanePoint u = patterns_[one].centre - patterns_[corner].centre;
-        const PlanePoint v = patterns_[other].centre - patterns_[corner].centre;
+        const ModulePoint u = patterns_[one].centre - patterns_[corner].centre;
+        const ModulePoint v = patterns_[other].centre - patterns_[corner].centre;
         const bool clockwise = cross_product(u, v) > 0;
         triple.pattern[0] = corner;
         triple.pattern[1] = clockwise ? one : other;
@@ -106,7 +106,7 @@ private:
         }
     }
     std::int64_t squared(int a, int b) const {
-        const PlanePoint way = patterns_[a].centre - patterns_[b].centre;
+        const ModulePoint way = patterns_[a].centre - patterns_[b].centre;
         return dot(way, way);
     }
 

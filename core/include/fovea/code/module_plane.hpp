@@ -13,19 +13,19 @@
 namespace fovea::detail {
 
 /// A place in 1/256 px, or in 1/16 module.
-struct PlanePoint {
+struct ModulePoint {
     std::int64_t x = 0;
     std::int64_t y = 0;
 
-    friend constexpr PlanePoint operator+(PlanePoint a, PlanePoint b) { return {a.x + b.x, a.y + b.y}; }
-    friend constexpr PlanePoint operator-(PlanePoint a, PlanePoint b) { return {a.x - b.x, a.y - b.y}; }
-    friend constexpr PlanePoint operator*(PlanePoint a, std::int64_t k) { return {a.x * k, a.y * k}; }
-    friend constexpr PlanePoint operator/(PlanePoint a, std::int64_t k) { return {a.x / k, a.y / k}; }
+    friend constexpr ModulePoint operator+(ModulePoint a, ModulePoint b) { return {a.x + b.x, a.y + b.y}; }
+    friend constexpr ModulePoint operator-(ModulePoint a, ModulePoint b) { return {a.x - b.x, a.y - b.y}; }
+    friend constexpr ModulePoint operator*(ModulePoint a, std::int64_t k) { return {a.x * k, a.y * k}; }
+    friend constexpr ModulePoint operator/(ModulePoint a, std::int64_t k) { return {a.x / k, a.y / k}; }
 };
-constexpr std::int64_t dot(PlanePoint a, PlanePoint b) { return a.x * b.x + a.y * b.y; }
-constexpr std::int64_t cross_product(PlanePoint a, PlanePoint b) { return a.x * b.y - a.y * b.x; }
-constexpr std::int64_t length(PlanePoint a) { return hypotenuse(a.x, a.y); }
-constexpr PlanePoint pixel_place(int x, int y) { return {std::int64_t{x} * 256, std::int64_t{y} * 256}; }
+constexpr std::int64_t dot(ModulePoint a, ModulePoint b) { return a.x * b.x + a.y * b.y; }
+constexpr std::int64_t cross_product(ModulePoint a, ModulePoint b) { return a.x * b.y - a.y * b.x; }
+constexpr std::int64_t length(ModulePoint a) { return hypotenuse(a.x, a.y); }
+constexpr ModulePoint pixel_place(int x, int y) { return {std::int64_t{x} * 256, std::int64_t{y} * 256}; }
 constexpr std::int64_t module_units = 16;
 
 /// From modules, in 1/16, to the image, in 1/256 px: (a u + b v + c) / (g u + h v + i) and so on.
@@ -37,13 +37,13 @@ public:
     ///
     /// Errors  degenerate where three of a side are on a line, or the horizon passes between them
     /// Source  Heckbert, Fundamentals of Texture Mapping, 1989: the unit square to each side
-    static Result<ModulePlane> through(const PlanePoint (&modules)[4], const PlanePoint (&places)[4]) {
+    static Result<ModulePlane> through(const ModulePoint (&modules)[4], const ModulePoint (&places)[4]) {
         constexpr std::uint64_t most_place = std::uint64_t{1} << 24;
         constexpr std::uint64_t most_module = 1U << 12;
-        for (const PlanePoint& place : places)
+        for (const ModulePoint& place : places)
             if (magnitude(place.x) >= most_place || magnitude(place.y) >= most_place)
                 return Status::degenerate;
-        for (const PlanePoint& place : modules)
+        for (const ModulePoint& place : modules)
             if (magnitude(place.x) >= most_module || magnitude(place.y) >= most_module)
                 return Status::degenerate;
         Entries from;
@@ -79,21 +79,21 @@ public:
         for (int i = 0; i < 9; ++i) plane.e_[i] = both.e[i].low_word();
         if (plane.depth(modules[0]) < 0)
             for (std::int64_t& entry : plane.e_) entry = -entry;
-        for (const PlanePoint& place : modules)
+        for (const ModulePoint& place : modules)
             if (plane.depth(place) <= 0) return Status::degenerate;
         return plane;
     }
 
     /// Beyond the horizon a place that is in no image. Modules within -4095..8191: sums stay below 2^62.
-    constexpr PlanePoint operator()(PlanePoint module) const { return quotient(sums(module)); }
+    constexpr ModulePoint operator()(ModulePoint module) const { return quotient(sums(module)); }
 
     /// A row of places in equal steps.
     class Walk {
     public:
-        constexpr Walk(const ModulePlane& plane, PlanePoint module, std::int64_t step)
+        constexpr Walk(const ModulePlane& plane, ModulePoint module, std::int64_t step)
             : at_(plane.sums(module)), step_{plane.e_[0] * step, plane.e_[3] * step, plane.e_[6] * step} {}
-        constexpr PlanePoint next() {
-            const PlanePoint place = quotient(at_);
+        constexpr ModulePoint next() {
+            const ModulePoint place = quotient(at_);
             for (int i = 0; i < 3; ++i) at_.s[i] += step_.s[i];
             return place;
         }
@@ -111,10 +111,10 @@ private:
     };
     using Three = Walk::Three;
 
-    static bool square_to(const PlanePoint (&p)[4], Entries& out) {
-        const PlanePoint one = p[1] - p[2];
-        const PlanePoint three = p[3] - p[2];
-        const PlanePoint skew = p[0] - p[1] + p[2] - p[3];
+    static bool square_to(const ModulePoint (&p)[4], Entries& out) {
+        const ModulePoint one = p[1] - p[2];
+        const ModulePoint three = p[3] - p[2];
+        const ModulePoint skew = p[0] - p[1] + p[2] - p[3];
         const std::int64_t w = cross_product(one, three);
         if (w == 0) return false;
         const std::int64_t g = cross_product(skew, three);
@@ -138,11 +138,11 @@ private:
         if (most <= bits) return;
         for (Int128& entry : entries.e) entry = entry >> (most - bits);
     }
-    constexpr std::int64_t depth(PlanePoint m) const { return e_[6] * m.x + e_[7] * m.y + e_[8]; }
-    constexpr Three sums(PlanePoint m) const {
+    constexpr std::int64_t depth(ModulePoint m) const { return e_[6] * m.x + e_[7] * m.y + e_[8]; }
+    constexpr Three sums(ModulePoint m) const {
         return {{e_[0] * m.x + e_[1] * m.y + e_[2], e_[3] * m.x + e_[4] * m.y + e_[5], depth(m)}};
     }
-    static constexpr PlanePoint quotient(const Three& sums) {
+    static constexpr ModulePoint quotient(const Three& sums) {
         constexpr std::int64_t nowhere = std::int64_t{1} << 30;
         if (sums.s[2] <= 0) return {nowhere, nowhere};
         return {clamp(sums.s[0] / sums.s[2], -nowhere, nowhere),

@@ -112,8 +112,8 @@ private:
             const int high = size_ - 1 + ring;
             int dark = 0;
             for (int i = low; i < high; ++i) {
-                for (const PlanePoint module : {module_centre(i, low), module_centre(high, i),
-                                                module_centre(low, i + 1), module_centre(i + 1, high)})
+                for (const ModulePoint module : {module_centre(i, low), module_centre(high, i),
+                                                 module_centre(low, i + 1), module_centre(i + 1, high)})
                     dark += light(plane_(module)) ? 0 : 1;
             }
             // A twentieth is noise.
@@ -121,8 +121,8 @@ private:
         }
         return rings;
     }
-    bool light(PlanePoint place) const {
-        const PlanePoint last = pixel_place(image_.width() - 1, image_.height() - 1);
+    bool light(ModulePoint place) const {
+        const ModulePoint last = pixel_place(image_.width() - 1, image_.height() - 1);
         // Pixels reach half a pixel beyond their centres.
         if (place.x < -128 || place.y < -128 || place.x > last.x + 128 || place.y > last.y + 128)
             return false;

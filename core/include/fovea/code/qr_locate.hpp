@@ -16,21 +16,21 @@ namespace fovea::detail {
 
 /// Half a module, in the units of ModulePlane.
 inline constexpr std::int64_t half_module = module_units / 2;
-constexpr PlanePoint module_centre(int x, int y) {
+constexpr ModulePoint module_centre(int x, int y) {
     return {x * module_units + half_module, y * module_units + half_module};
 }
-constexpr PlanePoint module_corner(int x, int y) { return {x * module_units, y * module_units}; }
+constexpr ModulePoint module_corner(int x, int y) { return {x * module_units, y * module_units}; }
 
 /// The place of every module: the plane, and what a curved surface departs from it at the alignment patterns.
 struct QrGrid {
     ModulePlane plane;
     int lines = 0;  ///< of alignment patterns, 0 for none or a plane alone
     int line[max_qr_alignment_lines] = {};
-    PlanePoint departure[max_qr_alignment_lines][max_qr_alignment_lines];
+    ModulePoint departure[max_qr_alignment_lines][max_qr_alignment_lines];
 
     /// What to add to the plane at a module: between the patterns in proportion, outside of them as at the
     /// nearest.
-    PlanePoint departure_at(int x, int y) const {
+    ModulePoint departure_at(int x, int y) const {
         if (lines == 0) return {};
         const int column = cell(x);
         const int row = cell(y);
@@ -38,9 +38,9 @@ struct QrGrid {
         const std::int64_t height = line[row + 1] - line[row];
         const std::int64_t right = clamp<std::int64_t>(x - line[column], 0, width);
         const std::int64_t down = clamp<std::int64_t>(y - line[row], 0, height);
-        const PlanePoint above =
+        const ModulePoint above =
             departure[row][column] * (width - right) + departure[row][column + 1] * right;
-        const PlanePoint below =
+        const ModulePoint below =
             departure[row + 1][column] * (width - right) + departure[row + 1][column + 1] * right;
         return (above * (height - down) + below * down) / (width * height);
     }
@@ -59,8 +59,8 @@ public:
 
     /// Takes three finders for those of a symbol: the one at its corner, to the right of that, and below.
     bool begin(const FinderPattern& corner, const FinderPattern& right, const FinderPattern& below) {
-        const PlanePoint u = right.centre - corner.centre;
-        const PlanePoint v = below.centre - corner.centre;
+        const ModulePoint u = right.centre - corner.centre;
+        const ModulePoint v = below.centre - corner.centre;
         if (!frame_[0].measure(image_, corner.centre, corner.module, u, v)) return false;
         if (!frame_[1].measure(image_, right.centre, right.module, u, v)) return false;
         if (!frame_[2].measure(image_, below.centre, below.module, u, v)) return false;
@@ -74,15 +74,15 @@ public:
     /// The planes for a size, the best first.
     int find_planes(int size) {
         planes_ = 0;
-        PlanePoint far;
+        ModulePoint far;
         if (far_corner(far)) add_plane(size, module_corner(size, size), far);
         // As if it were seen without perspective.
         add_plane(size, module_centre(size - 4, size - 4),
                   frame_[1].centre() + frame_[2].centre() - frame_[0].centre());
         const int version = (size - 17) / 4;
         if (version >= 2 && planes_ > 0) {
-            const PlanePoint place = module_centre(size - 7, size - 7);
-            PlanePoint found;
+            const ModulePoint place = module_centre(size - 7, size - 7);
+            ModulePoint found;
             const bool seen = find_alignment(plane_[0], place, plane_[0](place), 4, found) ||
                               (planes_ > 1 && find_alignment(plane_[1], place, plane_[1](place), 4, found));
             if (seen) add_plane(size, place, found);
@@ -106,16 +106,16 @@ public:
 
     /// Moves the corners of a plane while that makes the patterns fit better.
     int refine(int size, ModulePlane& plane) const {
-        PlanePoint modules[4] = {module_corner(0, 0), module_corner(size, 0), module_corner(size, size),
-                                 module_corner(0, size)};
-        PlanePoint places[4];
+        ModulePoint modules[4] = {module_corner(0, 0), module_corner(size, 0), module_corner(size, size),
+                                  module_corner(0, size)};
+        ModulePoint places[4];
         for (int i = 0; i < 4; ++i) places[i] = plane(modules[i]);
         int best = fit(plane, size);
         std::int64_t step = maximum(length(frame_[0].u()), length(frame_[0].v())) / 2;
         for (int round = 0; round < 5; ++round, step = step * 5 / 8) {
             for (int i = 0; i < 8; ++i) {
                 for (const int sign : {-1, 1}) {
-                    const PlanePoint before = places[i / 2];
+                    const ModulePoint before = places[i / 2];
                     (i % 2 == 0 ? places[i / 2].x : places[i / 2].y) += sign * step;
                     const Result<ModulePlane> moved = ModulePlane::through(modules, places);
                     const int points = moved ? fit(*moved, size) : 0;
@@ -135,9 +135,9 @@ public:
     ///
     /// Time  at most 145 times even_work(size) units of work; it ends with the budget
     void settle(int size, ModulePlane& plane, WorkBudget& budget) const {
-        const PlanePoint modules[4] = {module_corner(0, 0), module_corner(size, 0), module_corner(size, size),
-                                       module_corner(0, size)};
-        PlanePoint places[4];
+        const ModulePoint modules[4] = {module_corner(0, 0), module_corner(size, 0),
+                                        module_corner(size, size), module_corner(0, size)};
+        ModulePoint places[4];
         for (int i = 0; i < 4; ++i) places[i] = plane(modules[i]);
         const int work = even_work(size);
         budget.spend(work);
@@ -152,8 +152,8 @@ public:
                                                {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
                     if (budget.spent()) return;
                     budget.spend(work);
-                    const PlanePoint before = places[2];
-                    places[2] = before + PlanePoint{way[i][0] * step, way[i][1] * step};
+                    const ModulePoint before = places[2];
+                    places[2] = before + ModulePoint{way[i][0] * step, way[i][1] * step};
                     const Result<ModulePlane> other = ModulePlane::through(modules, places);
                     const int points = other ? evenness(*other, size) : 0;
                     if (points > best) {
@@ -177,7 +177,7 @@ public:
         for (int i = 0; i < lines; ++i) grid.line[i] = qr_alignment_line(version, i);
         for (int row = 0; row < lines; ++row) {
             for (int column = 0; column < lines; ++column) {
-                PlanePoint near;
+                ModulePoint near;
                 if (row > 0 && column > 0)
                     near = (grid.departure[row - 1][column] + grid.departure[row][column - 1]) / 2;
                 else if (row > 0)
@@ -186,8 +186,8 @@ public:
                     near = grid.departure[row][column - 1];
                 const bool at_finder =
                     (row == 0 && (column == 0 || column == lines - 1)) || (column == 0 && row == lines - 1);
-                const PlanePoint module = module_centre(grid.line[column], grid.line[row]);
-                PlanePoint found;
+                const ModulePoint module = module_centre(grid.line[column], grid.line[row]);
+                ModulePoint found;
                 if (at_finder)
                     near = {};
                 else if (find_alignment(plane, module, plane(module) + near, 2, found))
@@ -251,7 +251,7 @@ private:
         }
         return even;
     }
-    int change(const ModulePlane& plane, PlanePoint middle, PlanePoint way) const {
+    int change(const ModulePlane& plane, ModulePoint middle, ModulePoint way) const {
         const bool dark = image_.dark(plane(middle));
         if (image_.dark(plane(middle - way)) == dark) return 0;
         const bool own = image_.dark(plane(middle - way * 3 / 8)) == dark;
@@ -287,8 +287,8 @@ private:
         size_[sizes_++] = size;
     }
     /// Changes of colour along a timing pattern, 14 less than the size.
-    int counted_size(PlanePoint from, PlanePoint to, std::int64_t module) const {
-        const PlanePoint way = to - from;
+    int counted_size(ModulePoint from, ModulePoint to, std::int64_t module) const {
+        const ModulePoint way = to - from;
         const std::int64_t far = length(way);
         const std::int64_t step = maximum<std::int64_t>(module / 8, 32);
         const std::int64_t steps = far / step;
@@ -317,7 +317,7 @@ private:
                 // From the finder's centre it begins seven modules back.
                 const int across = 2 * (bit % 3) - 14;
                 const int along = 2 * (bit / 3) - 6;
-                const PlanePoint place =
+                const ModulePoint place =
                     copy == 0 ? frame_[1].at(across, along) : frame_[2].at(along, across);
                 if (image_.dark(place)) word |= 1U << bit;
             }
@@ -326,40 +326,40 @@ private:
         return 0;
     }
     /// Where the outer edges of the two other finders meet.
-    bool far_corner(PlanePoint& corner) const {
+    bool far_corner(ModulePoint& corner) const {
         PlaceLine right, below;
         return frame_[1].edge(frame_[1].u(), frame_[1].v(), right) &&
                frame_[2].edge(frame_[2].v(), frame_[2].u(), below) && meet(right, below, corner);
     }
     /// The plane through the centres of the finders and a fourth pair.
-    void add_plane(int size, PlanePoint module, PlanePoint place) {
-        const PlanePoint modules[4] = {module_centre(3, 3), module_centre(size - 4, 3), module,
-                                       module_centre(3, size - 4)};
-        const PlanePoint places[4] = {frame_[0].centre(), frame_[1].centre(), place, frame_[2].centre()};
+    void add_plane(int size, ModulePoint module, ModulePoint place) {
+        const ModulePoint modules[4] = {module_centre(3, 3), module_centre(size - 4, 3), module,
+                                        module_centre(3, size - 4)};
+        const ModulePoint places[4] = {frame_[0].centre(), frame_[1].centre(), place, frame_[2].centre()};
         const Result<ModulePlane> plane = ModulePlane::through(modules, places);
         if (plane && planes_ < max_planes) plane_[planes_++] = *plane;
     }
     /// Looks for an alignment pattern around a place, within so many modules each way, and answers the middle
     /// of the places where it fits best.
-    bool find_alignment(const ModulePlane& plane, PlanePoint module, PlanePoint near, int reach,
-                        PlanePoint& found) const {
+    bool find_alignment(const ModulePlane& plane, ModulePoint module, ModulePoint near, int reach,
+                        ModulePoint& found) const {
         // The plane is flat enough over five modules.
-        const PlanePoint u = (plane(module + PlanePoint{2 * module_units, 0}) -
-                              plane(module - PlanePoint{2 * module_units, 0})) /
-                             4;
-        const PlanePoint v = (plane(module + PlanePoint{0, 2 * module_units}) -
-                              plane(module - PlanePoint{0, 2 * module_units})) /
-                             4;
+        const ModulePoint u = (plane(module + ModulePoint{2 * module_units, 0}) -
+                               plane(module - ModulePoint{2 * module_units, 0})) /
+                              4;
+        const ModulePoint v = (plane(module + ModulePoint{0, 2 * module_units}) -
+                               plane(module - ModulePoint{0, 2 * module_units})) /
+                              4;
         if (length(u) > 256 * 256 || length(v) > 256 * 256) return false;
-        const auto dark = [&](PlanePoint centre, int x, int y) {
+        const auto dark = [&](ModulePoint centre, int x, int y) {
             return image_.dark(centre + u * x + v * y);
         };
         int best = 20;
-        PlanePoint sum;
+        ModulePoint sum;
         int count = 0;
         for (int dy = -4 * reach; dy <= 4 * reach; ++dy) {
             for (int dx = -4 * reach; dx <= 4 * reach; ++dx) {
-                const PlanePoint centre = near + (u * dx + v * dy) / 4;
+                const ModulePoint centre = near + (u * dx + v * dy) / 4;
                 if (!image_.dark(centre) ||
                     dark(centre, -1, 0) + dark(centre, 1, 0) + dark(centre, 0, -1) + dark(centre, 0, 1) > 1)
                     continue;

@@ -18,7 +18,7 @@ namespace fovea::detail {
 
 /// Brightness at a place, between the four pixels around it; the outermost repeat. In 1/256 level, rounded
 /// down.
-inline int brightness(ImageView<const Gray8> image, PlanePoint place) {
+inline int brightness(ImageView<const Gray8> image, ModulePoint place) {
     const std::int64_t x = clamp<std::int64_t>(place.x, 0, std::int64_t{image.width() - 1} * 256);
     const std::int64_t y = clamp<std::int64_t>(place.y, 0, std::int64_t{image.height() - 1} * 256);
     const int left = static_cast<int>(x >> 8);
@@ -37,7 +37,7 @@ inline bool grid_inside(const QrGrid& grid, int size, Size image) {
     for (int i = 0; i < 4; ++i) {
         const int x = i % 2 == 0 ? 0 : size - 1;
         const int y = i / 2 == 0 ? 0 : size - 1;
-        const PlanePoint place = grid.plane(module_centre(x, y));
+        const ModulePoint place = grid.plane(module_centre(x, y));
         if (place.x < -384 || place.y < -384 || place.x > std::int64_t{image.width} * 256 + 128 ||
             place.y > std::int64_t{image.height} * 256 + 128)
             return false;
@@ -57,7 +57,7 @@ void for_each_module(const QrGrid& grid, int size, Visit visit) {
 /// As the binary image has them.
 inline void sample_bits(const FinderImage& image, const QrGrid& grid, BitView<BitWord> modules) {
     for_each_module(grid, modules.width(),
-                    [&](int x, int y, PlanePoint place) { modules.set(x, y, image.dark(place)); });
+                    [&](int x, int y, ModulePoint place) { modules.set(x, y, image.dark(place)); });
 }
 
 /// Modules by their brightness: each compared with the middle between dark and light of those around.
@@ -69,7 +69,7 @@ public:
     /// Brightness in 1/16 level.
     void sample(ImageView<const Gray8> image, const QrGrid& grid, int size) {
         size_ = size;
-        for_each_module(grid, size, [&](int x, int y, PlanePoint place) {
+        for_each_module(grid, size, [&](int x, int y, ModulePoint place) {
             at(x, y) = static_cast<std::int16_t>(brightness(image, place) >> 4);
         });
     }

@@ -278,8 +278,8 @@ private:
         code.inverted = inverted;
         code.mirrored = symbol->mirrored;
         const int size = modules.width();
-        const PlanePoint corners[4] = {module_corner(0, 0), module_corner(size, 0), module_corner(size, size),
-                                       module_corner(0, size)};
+        const ModulePoint corners[4] = {module_corner(0, 0), module_corner(size, 0),
+                                        module_corner(size, size), module_corner(0, size)};
         for (int i = 0; i < 4; ++i) {
             // A mirrored symbol is read down where others are read across.
             code.corners[symbol->mirrored ? (4 - i) % 4 : i] = corner_of(grid.plane(corners[i]));
@@ -292,8 +292,8 @@ private:
         return true;
     }
     /// At half the size pixel x lies between 2x and 2x + 1.
-    SubPixelPoint corner_of(PlanePoint place) const {
-        if (image_.width() != full_.width()) place = place * 2 + PlanePoint{128, 128};
+    SubPixelPoint corner_of(ModulePoint place) const {
+        if (image_.width() != full_.width()) place = place * 2 + ModulePoint{128, 128};
         return {SubPixel::from_raw(saturate_cast<std::int32_t>(place.x)),
                 SubPixel::from_raw(saturate_cast<std::int32_t>(place.y))};
     }

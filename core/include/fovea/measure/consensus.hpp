@@ -47,22 +47,6 @@ Result<Consensus<Model>> least_median(Span<const FinePoint> points, Make make, D
 
 namespace detail {
 
-/// Different numbers 0..bound-1, ascending. bound is at least N.
-template <std::size_t N>
-void draw_different(Random& random, std::ptrdiff_t bound, std::ptrdiff_t (&chosen)[N]) {
-    const int count = static_cast<int>(N);
-    for (int k = 0; k < count; ++k) {
-        auto next = static_cast<std::ptrdiff_t>(random.below(static_cast<std::uint32_t>(bound - k)));
-        int place = 0;
-        while (place < k && next >= chosen[place]) {
-            ++next;
-            ++place;
-        }
-        for (int i = k; i > place; --i) chosen[i] = chosen[i - 1];
-        chosen[place] = next;
-    }
-}
-
 /// A signed distance without its sign; the largest negative one is held at the largest.
 constexpr FinePixel without_sign(FinePixel distance) {
     return FinePixel::from_raw(saturate_cast<std::int32_t>(magnitude(distance.raw())));
@@ -90,7 +74,7 @@ Result<Consensus<Model>> least_median(Span<const FinePoint> points, Make make, D
     Consensus<Model> best;
     for (int i = 0; i < samples; ++i) {
         std::ptrdiff_t chosen[static_cast<std::size_t>(SampleSize)] = {};
-        detail::draw_different(random, points.size(), chosen);
+        draw_different(random, points.size(), chosen);
         FinePoint sample[static_cast<std::size_t>(SampleSize)];
         for (int k = 0; k < SampleSize; ++k) sample[k] = points[chosen[k]];
         const Result<Model> model = make(Span<const FinePoint>(sample, SampleSize));

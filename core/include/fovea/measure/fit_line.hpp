@@ -64,6 +64,12 @@ constexpr FinePixel distance_from(const Line& line, FinePoint point) {
 
 namespace detail {
 
+/// Errors  degenerate for one and the same point
+constexpr Result<Line> line_through(FinePoint a, FinePoint b) {
+    if (a == b) return Status::degenerate;
+    return Line{a, angle_of(std::int64_t{b.x.raw()} - a.x.raw(), std::int64_t{b.y.raw()} - a.y.raw())};
+}
+
 /// fit_line() over the points for which keep(point) holds.
 template <class Keep>
 constexpr Result<LineFit> fit_line_to(Span<const FinePoint> points, Keep keep) {
@@ -125,12 +131,7 @@ constexpr Result<LineFit> fit_line(Span<const FinePoint> points) {
 
 inline Result<LineFit> fit_line_robust(Span<const FinePoint> points, Span<FinePixel> scratch) {
     if (points.size() > max_fit_points) return Status::bad_argument;
-    const auto through = [](Span<const FinePoint> two) -> Result<Line> {
-        if (two[0] == two[1]) return Status::degenerate;
-        const std::int64_t x = std::int64_t{two[1].x.raw()} - two[0].x.raw();
-        const std::int64_t y = std::int64_t{two[1].y.raw()} - two[0].y.raw();
-        return Line{two[0], angle_of(x, y)};
-    };
+    const auto through = [](Span<const FinePoint> two) { return detail::line_through(two[0], two[1]); };
     const auto distance = [](const Line& line, FinePoint point) {
         return detail::without_sign(distance_from(line, point));
     };

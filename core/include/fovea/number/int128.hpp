@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Int128: exact sums and products beyond 64 bits, for moments and fits. Made of two 64-bit words everywhere,
-// so that a chip without 128-bit support gives the same bits.
+// Int128: exact sums and products beyond 64 bits, for moments and fits. Made of two 64-bit words, so that
+// a chip gives the same bits.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,8 @@ public:
 
     /// The exact product of two 64-bit numbers.
     static constexpr Int128 product(std::int64_t a, std::int64_t b);
+    /// The same made of words of 64 bits: what product() does where the compiler knows no longer numbers.
+    static constexpr Int128 product_in_words(std::int64_t a, std::int64_t b);
 
     constexpr bool negative() const { return high_ >> 63 != 0; }
     constexpr bool fits_int64() const {
@@ -104,10 +106,27 @@ constexpr Int128 Int128::product_of(std::uint64_t x, std::uint64_t y) {
                   second << 32 | (bottom & 0xffffffffu));
 }
 
-constexpr Int128 Int128::product(std::int64_t a, std::int64_t b) {
+constexpr Int128 Int128::product_in_words(std::int64_t a, std::int64_t b) {
     const Int128 size = product_of(magnitude(a), magnitude(b));
     return (a < 0) != (b < 0) ? -size : size;
 }
+
+#if defined(__SIZEOF_INT128__)
+
+namespace detail {
+__extension__ using SignedWord128 = __int128;
+}  // namespace detail
+
+constexpr Int128 Int128::product(std::int64_t a, std::int64_t b) {
+    const detail::SignedWord128 whole = static_cast<detail::SignedWord128>(a) * b;
+    return Int128(static_cast<std::uint64_t>(whole >> 64), static_cast<std::uint64_t>(whole));
+}
+
+#else
+
+constexpr Int128 Int128::product(std::int64_t a, std::int64_t b) { return product_in_words(a, b); }
+
+#endif
 
 constexpr std::int64_t round_divide(Int128 value, Int128 divisor) {
     FOVEA_ASSERT(divisor != Int128(0));
