@@ -76,15 +76,15 @@ public:
           lens_(record.camera) {}
 
     ExitCode undistort(const std::string& name, const std::string& out) {
-        AnyPicture picture;
+        FilePicture picture;
         std::string problem;
-        if (!load_any(io_.storage(), name, picture, problem)) return failed(problem);
+        if (!load_file_picture(io_.storage(), name, picture, problem)) return failed(problem);
         const Size size = picture.size();
         if (!record_.size.empty() && size != record_.size)
             return failed(name + " is " + size_text(size) + ", the pictures of " + camera_name_ + " are " +
                           size_text(record_.size) + "; give pictures of that size");
         if (!prepare(size, problem)) return failed(problem);
-        if (!save_any(io_.storage(), out, mapped(picture, map_), problem)) return failed(problem);
+        if (!save_file_picture(io_.storage(), out, mapped(picture, map_), problem)) return failed(problem);
         const std::string empty = std::to_string(map_.empty_pixels);
         if (json_)
             io_.print("{\"schema\":1,\"picture\":" + json_string(name) + ",\"out\":" + json_string(out) +
