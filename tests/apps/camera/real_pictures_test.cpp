@@ -115,8 +115,8 @@ TEST(ToolkitCameras, ADoorIsStraightWhenUndistorted) {
 std::vector<int> offsets(const Picture<Gray8>& left, const Picture<Gray8>& right) {
     constexpr int half = 10;
     std::vector<int> found;
-    for (int y = 60; y < 420; y += 24)
-        for (int x = 200; x < 600; x += 24) {
+    for (int y = 60; y < 420; y += 36)
+        for (int x = 200; x < 600; x += 36) {
             int least = 1 << 30, best = 0, high = 0, low = 255, sum = 0;
             for (int v = -half; v <= half; ++v)
                 for (int u = -half; u <= half; ++u) {
@@ -125,7 +125,7 @@ std::vector<int> offsets(const Picture<Gray8>& left, const Picture<Gray8>& right
                     sum += left.view()(x + u, y + v);
                 }
             if (high - low < 80) continue;
-            for (int dy = -12; dy <= 12; ++dy)
+            for (int dy = -10; dy <= 10; ++dy)
                 for (int disparity = 60; disparity <= 170; ++disparity) {
                     if (x - disparity - half < 0) continue;
                     int other = 0;
@@ -172,8 +172,8 @@ TEST(ToolkitCameras, RowsOfTheSceneAgreeWhenRectified) {
     const auto share = [](const std::vector<int>& sorted, int percent) {
         return sorted[sorted.size() * static_cast<std::size_t>(percent) / 100];
     };
-    ASSERT_GT(raw.size(), 50u);
-    ASSERT_GT(rectified.size(), 50u);
+    ASSERT_GT(raw.size(), 20u);
+    ASSERT_GT(rectified.size(), 20u);
     std::printf("vertical offsets, 10 %%, half and 90 %%: %d %d %d of %zu before, %d %d %d of %zu after\n",
                 share(raw, 10), share(raw, 50), share(raw, 90), raw.size(), share(rectified, 10),
                 share(rectified, 50), share(rectified, 90), rectified.size());
