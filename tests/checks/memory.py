@@ -90,7 +90,7 @@ def type_sizes(nm, target):
     # As the source calls what the compiler knows by another name, and without the name of the instruction set.
     plain = {"unsigned char": "Gray8", "RegionOf<fovea::Moments>": "Region", "HoleOf<fovea::Moments>": "Hole",
              "ConnectedComponentsOf<fovea::Moments>": "ConnectedComponents", "RecipeOf<24>": "Recipe",
-             "HistogramOf<4>": "Histogram", "HistogramOf<1>": "Histogram"}
+             "HistogramOf<4>": "Histogram", "HistogramOf<1>": "Histogram", "<fovea::Real>": "<>"}
     sizes = {replaced(re.sub(r"\w+_[0-9]+::", "", found[2]), plain): int(found[1], 16)
              for found in re.finditer(r"^\S+ (\S+) \S (?:fovea::)?bytes_of<fovea::(.*?) ?>(?:\[abi.*)?$", listing, re.MULTILINE)}
     order = re.findall(r"template char bytes_of<(.*)>\[\];", (PROJECT / "tests/memory/type_sizes.cpp").read_text())

@@ -34,6 +34,7 @@
 #include <golden/operator_vectors.hpp>
 #include <golden/segment_vectors.hpp>
 #include <golden/statistics_vectors.hpp>
+#include <golden/stereo_vectors.hpp>
 #include <golden/stream_vectors.hpp>
 #include <golden/warp_vectors.hpp>
 #include <golden/workspace.hpp>
@@ -136,6 +137,14 @@ inline constexpr Vector vectors[] = {
     {"camera/poses", camera_poses},
     {"camera/undistortion", camera_undistortion},
     {"camera/views", camera_views},
+    {"stereo/epipolar", stereo_epipolar},
+    {"stereo/essential", stereo_essential},
+    {"stereo/essential_ransac", stereo_essential_ransac},
+    {"stereo/fundamental", stereo_fundamental},
+    {"stereo/ransac", stereo_ransac},
+    {"stereo/rectify", stereo_rectify},
+    {"stereo/rectify_zoom", stereo_rectify_zoom},
+    {"stereo/triangulate", stereo_triangulate},
     {"code/blurred_ean", code_blurred_ean},
     {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},

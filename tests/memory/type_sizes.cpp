@@ -10,6 +10,8 @@
 #include <fovea/image/image_view.hpp>
 #include <fovea/segment/connected_components.hpp>
 #include <fovea/statistics/histogram.hpp>
+#include <fovea/stereo/rectify.hpp>
+#include <fovea/stereo/triangulate.hpp>
 
 namespace fovea {
 
@@ -31,5 +33,8 @@ template char bytes_of<FeatureResult>[];
 template char bytes_of<PartResult>[];
 template char bytes_of<UndistortionMap>[];
 template char bytes_of<CameraSet>[];
+template char bytes_of<StereoCamera<>>[];
+template char bytes_of<Rectification<>>[];
+template char bytes_of<Triangulator<>>[];
 
 }  // namespace fovea

@@ -38,7 +38,8 @@ double worst_distance(const Matrix<3, 3>& f, const Pixels& left, const Pixels& r
     }
     return worst;
 }
-/// How far two matrices lead apart: the largest difference of the distances that their lines have from pixels.
+/// How far two matrices lead apart: the largest difference of the distances that their lines have from
+/// pixels.
 template <class Scalar>
 double apart(const Matrix<3, 3>& f, const Matrix<3, 3, Scalar>& g, const Pixels& left, const Pixels& right) {
     double most = 0;
@@ -206,6 +207,46 @@ TEST(FitFundamentalRansac, FindsTheOnesThatBelongTogether) {
     }
 }
 
+TEST(FitFundamentalRansac, APlaneWithALittleBesideItIsFoundWhole) {
+    // Samples from the plane alone would agree with all of it, and with nothing else.
+    Random random(8);
+    const RandomRig rig(random, RandomRig::Kind::side_by_side, false);
+    const StereoCamera<double> pair = rig.cameras<double>();
+    SeenPlaces seen = look_at(pair, random, 100, 0, true);
+    const SeenPlaces beside = look_at(pair, random, 4);
+    seen.left.insert(seen.left.end(), beside.left.begin(), beside.left.end());
+    seen.right.insert(seen.right.end(), beside.right.begin(), beside.right.end());
+    std::vector<std::uint8_t> agrees(104, 7);
+    const auto found = fit_fundamental_ransac(seen.left_span(), seen.right_span(), SubPixel::from_ratio(1, 8),
+                                              {}, Span<std::uint8_t>(agrees.data(), 104));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->agreeing, 104);
+    EXPECT_LE(apart(found->transform, *fundamental_matrix(rig.cameras<Real>()), seen.left, seen.right), 0.02);
+}
+
+TEST(FitFundamentalRansac, ItsToleranceIsOfSampsonsDistance) {
+    // Side by side, an offset of a row by d is a distance of d over the root of 2.
+    Random random(9);
+    Pixels left;
+    Pixels right;
+    for (int i = 0; i < 60; ++i) {
+        const int x = random.between(100, 600);
+        const int y = random.between(0, 479);
+        const int disparity = random.between(20, 90);
+        left.push_back(pixel_near(x, y));
+        right.push_back(pixel_near(x - disparity, y));
+    }
+    right[10].y += SubPixel::from_ratio(13, 10);
+    right[20].y += SubPixel::from_ratio(-155, 100);
+    std::vector<std::uint8_t> agrees(60, 7);
+    const auto found = fit_fundamental_ransac(span_of(left), span_of(right), SubPixel::from_int(1), {},
+                                              Span<std::uint8_t>(agrees.data(), 60));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->agreeing, 59);
+    EXPECT_EQ(agrees[10], 1);
+    EXPECT_EQ(agrees[20], 0);
+}
+
 TEST(FitFundamentalRansac, RefusesWhatItCannotFind) {
     Random random(4);
     const RandomRig rig(random, RandomRig::Kind::side_by_side, false);
@@ -222,6 +263,14 @@ TEST(FitFundamentalRansac, RefusesWhatItCannotFind) {
             .status();
     };
     EXPECT_EQ(call(plane, one), Status::degenerate);
+    // With noise some samples of a plane make a matrix; what agrees with it is seen to be one.
+    const SeenPlaces noisy = look_at(pair, random, 60, 0.5, true);
+    std::vector<std::uint8_t> others(60, 7);
+    EXPECT_EQ(fit_fundamental_ransac(noisy.left_span(), noisy.right_span(), one, {},
+                                     Span<std::uint8_t>(others.data(), 60))
+                  .status(),
+              Status::degenerate);
+    EXPECT_EQ(others, std::vector<std::uint8_t>(60, 7));
     EXPECT_EQ(call(seen, SubPixel()), Status::bad_argument);
     options.enough = 31;
     EXPECT_EQ(call(seen, one), Status::not_found);

@@ -98,8 +98,8 @@ constexpr Vector<9, Scalar> epipolar_equation(const Vector<2, Scalar>& left, con
 }
 
 /// The eigenvector of the least eigenvalue; degenerate if the one before is not above a limit and twice the
-/// least. Of a plane, three are alike: of 200 random ones with noise, one of a hundred had the third more than
-/// 16 + 512 / n times the least, from 25 pairs on.
+/// least. Of a plane, three are alike: of 200 random ones with noise, one of a hundred had the third more
+/// than 16 + 512 / n times the least, from 25 pairs on.
 template <class Scalar>
 constexpr Result<Matrix<3, 3, Scalar>> least_direction(Matrix<9, 9, Scalar>& sums, Scalar limit,
                                                        std::int64_t used) {

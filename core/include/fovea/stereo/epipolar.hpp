@@ -79,8 +79,8 @@ struct LineEnds {
 /// Rounding  ends to the nearest, ties away from 0
 /// Errors    empty_image; out_of_range for a rectangle beyond 2^22 px; degenerate for a = b = 0; not_found if
 ///           the line passes by
-/// Source    Liang and Barsky, "A New Concept and Method for Line Clipping", ACM Transactions on Graphics 3(1),
-///           1984, from the foot of the perpendicular on the middle
+/// Source    Liang and Barsky, "A New Concept and Method for Line Clipping", ACM Transactions on Graphics
+///           3(1), 1984, from the foot of the perpendicular on the middle
 template <class Scalar>
 constexpr Result<LineEnds> clip_line(const Vector<3, Scalar>& line, Rectangle area);
 

@@ -41,7 +41,8 @@ constexpr Result<Matrix<3, 3, Scalar>> nearest_essential(const Matrix<3, 3, Scal
 ///
 /// Shapes    as many left as right: 8 to 2^20; places at distance 1, as rays_of() makes them
 /// Range     coordinates within 16
-/// Rounding  places are shifted to a mean in 2^-40 and brought within 1 by a power of two; then that of Scalar
+/// Rounding  places are shifted to a mean in 2^-40 and brought within 1 by a power of two; then that of
+///           Scalar
 /// Errors    as fit_fundamental(), with 2^-13 in place of 1/16 px, which is that at a focal length of 512 px
 /// Source    the eight-point algorithm of fit_fundamental(), and the nearest essential matrix
 template <class Scalar>
@@ -70,9 +71,9 @@ struct RecoveredPose {
 
 /// The pose for which the rays of the pairs meet in front of both cameras.
 ///
-/// Errors  size_mismatch; bad_argument for no pairs; degenerate as above; undecided if less than three quarters
-///         of the pairs meet in front of both for any of the poses: wrong pairs, or all so far away that
-///         either direction of the baseline will do
+/// Errors  size_mismatch; bad_argument for no pairs; degenerate as above; undecided if less than three
+///         quarters of the pairs meet in front of both for any of the poses: wrong pairs, or all so far away
+///         that either direction of the baseline will do
 /// Source  the same
 template <class Scalar>
 constexpr Result<RecoveredPose<Scalar>> recover_pose(const Matrix<3, 3, Scalar>& essential,

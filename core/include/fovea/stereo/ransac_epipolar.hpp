@@ -25,9 +25,9 @@ namespace fovea {
 /// at most a tolerance. The fit is repeated with those that agree with it, while their number grows.
 ///
 /// agrees  1 for each pair that agrees with the answer and 0 for the others; as long as left
-/// Errors  those of fit_fundamental(); size_mismatch also for agrees; bad_argument for a tolerance that is not
-///         above 0 or options out of range; not_found if fewer than options.enough agree; degenerate if no
-///         sample makes a matrix, or those that agree with the best leave more than one open: a plane
+/// Errors  those of fit_fundamental(); size_mismatch also for agrees; bad_argument for a tolerance that is
+///         not above 0 or options out of range; not_found if fewer than options.enough agree; degenerate if
+///         no sample makes a matrix, or those that agree with the best leave more than one open: a plane
 template <class Scalar = Real>
 constexpr Result<RansacFit<Matrix<3, 3, Scalar>>> fit_fundamental_ransac(Span<const SubPixelPoint> left,
                                                                          Span<const SubPixelPoint> right,

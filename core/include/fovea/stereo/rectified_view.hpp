@@ -87,13 +87,14 @@ struct NewPicture {
 };
 
 /// Least and most focal lengths that put a place of a border on the edge of the new picture, taken together
-/// with what there is already. The corners of the new picture are looked for between the border's places.
+/// with what there is already. The corners of the new picture are looked for between the border's places, of
+/// which every stride-th is looked at.
 template <class Scalar>
 constexpr Status add_border(const LensInverse<Scalar>& lens, const Matrix<3, 3, Scalar>& rotation, Size size,
-                            const NewPicture<Scalar>& picture, Scalar& least, Scalar& most) {
+                            int stride, const NewPicture<Scalar>& picture, Scalar& least, Scalar& most) {
     const Scalar zero = scalar_of<Scalar>(0);
     Vector<2, Scalar> last;
-    for (int i = 0; i <= 256; ++i) {
+    for (int i = 0; i <= 256; i += stride) {
         const Result<Vector<2, Scalar>> place = turned_border(lens, rotation, size, i);
         if (!place) return place.status();
         const auto take = [&](const Vector<2, Scalar>& at) {
@@ -113,6 +114,14 @@ constexpr Status add_border(const LensInverse<Scalar>& lens, const Matrix<3, 3, 
         last = *place;
     }
     return Status::ok;
+}
+
+/// Whether straight lines stay straight.
+template <class Scalar>
+constexpr bool without_lens(const Camera<Scalar>& camera) {
+    const Scalar zero = scalar_of<Scalar>(0);
+    return camera.k1 == zero && camera.k2 == zero && camera.k3 == zero && camera.p1 == zero &&
+           camera.p2 == zero;
 }
 
 /// Whether a camera sees the direction straight ahead of the new picture.

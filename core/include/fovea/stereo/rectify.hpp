@@ -74,14 +74,14 @@ struct Rectification {
 ///           picture, it is drawn in toward the middle: what is not seen does not count
 /// Rounding  rotations are square to 2^-58; zoom to 1/20 px at the border, for lenses that bend the border by
 ///           up to a tenth of its length: 64 places of a side are looked at, with straight lines between them
-/// Errors    empty_image; image_too_large; bad_argument for focal lengths that are not above 0 or a rotation that
-///           is none to 2^-16; degenerate for cameras at one place, one before the other, or turned by half a
-///           turn; out_of_range where nothing between the middle of a picture and its border can be seen in
-///           the new one, or, for a zoom, the middle of the new picture is not seen
-/// Source    Bouguet's method as in his Camera Calibration Toolbox, with the half turn by quaternions, and the
-///           new camera as there for common principal points; Fusiello, Trucco and Verri, "A compact algorithm
-///           for rectification of stereo pairs", Machine Vision and Applications 12, 2000. Zooms are
-///           those of the border's pixels, not of the rectangles in and around them
+/// Errors    empty_image; image_too_large; bad_argument for focal lengths that are not above 0 or a rotation
+///           that is none to 2^-16; degenerate for cameras at one place, one before the other, or turned by
+///           half a turn; out_of_range where nothing between the middle of a picture and its border can be
+///           seen in the new one, or, for a zoom, the middle of the new picture is not seen
+/// Source    Bouguet's method as in his Camera Calibration Toolbox, with the half turn by quaternions, and
+///           the new camera as there for common principal points; Fusiello, Trucco and Verri, "A compact
+///           algorithm for rectification of stereo pairs", Machine Vision and Applications 12, 2000. Zooms
+///           are those of the border's pixels, not of the rectangles in and around them
 template <class Scalar>
 constexpr Result<Rectification<Scalar>> rectify(const StereoCamera<Scalar>& cameras, Size size,
                                                 const RectifyOptions& options = {});
@@ -196,8 +196,13 @@ constexpr Status zoom(const StereoCamera<Scalar>& cameras, const LensInverse<Sca
         return Status::out_of_range;
     Scalar least = zero;
     Scalar most = zero;
-    Status status = add_border(left, found.left, size, picture, least, most);
-    if (status == Status::ok) status = add_border(right, found.right, size, picture, least, most);
+    // Without lens the border is straight from corner to corner.
+    const auto add = [&](const Camera<Scalar>& one, const LensInverse<Scalar>& lens,
+                         const Matrix<3, 3, Scalar>& rotation) {
+        return add_border(lens, rotation, size, without_lens(one) ? 64 : 1, picture, least, most);
+    };
+    Status status = add(cameras.left, left, found.left);
+    if (status == Status::ok) status = add(cameras.right, right, found.right);
     if (status != Status::ok) return status;
     camera.fx = camera.fy = valid ? most : least;
     return camera.fx == zero ? Status::out_of_range : Status::ok;

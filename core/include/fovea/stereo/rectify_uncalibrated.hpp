@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Rectification of two pictures whose cameras are not known: homographies from the fundamental matrix and pairs
-// of pixels.
+// Rectification of two pictures whose cameras are not known: homographies from the fundamental matrix and
+// pairs of pixels.
 #pragma once
 
 #include <cstddef>
@@ -28,16 +28,16 @@ struct RectifyingHomographies {
     StereoAxis axis = StereoAxis::x;
 };
 
-/// Makes the rows, or columns for cameras above each other, of two pictures agree. The right picture is turned
-/// about its middle and bent as little as that takes; the left one follows, with disparities as small as
-/// possible for the pairs.
+/// Makes the rows, or columns for cameras above each other, of two pictures agree. The right picture is
+/// turned about its middle and bent as little as that takes; the left one follows, with disparities as small
+/// as possible for the pairs.
 ///
 /// Shapes    3 pairs or more; wrong ones are the caller's to leave out
 /// Range     no pixel is further than 2^16 px from the origin
 /// Errors    size_mismatch; empty_image; image_too_large; bad_argument for fewer than 3 pairs or more than
 ///           2^20; out_of_range for pixels beyond the range; degenerate for a matrix whose rank is not 2 as
-///           epipoles() says, if an epipole is in its picture or its lines cannot be made parallel without the
-///           horizon in a picture, if the left pixels are on a line, or if the pairs mirror
+///           epipoles() says, if an epipole is in its picture or its lines cannot be made parallel without
+///           the horizon in a picture, if the left pixels are on a line, or if the pairs mirror
 /// Source    Hartley, "Theory and Practice of Projective Rectification", IJCV 35(2), 1999; what that chooses
 ///           freely for the left picture changes its row of the axis alone, and the pairs fix that
 template <class Scalar>
@@ -50,18 +50,10 @@ constexpr Result<RectifyingHomographies<Scalar>> rectify_uncalibrated(const Matr
 
 namespace detail {
 
-/// Whether a homogeneous pixel is in a picture.
-template <class Scalar>
-constexpr bool in_picture(const Vector<3, Scalar>& pixel, Size size) {
-    const Scalar zero = scalar_of<Scalar>(0);
-    const Vector<3, Scalar> p = pixel[2] < zero ? -pixel : pixel;
-    return !(p[0] < zero) && !(p[1] < zero) && !(p[2] * scalar_of<Scalar>(size.width - 1) < p[0]) &&
-           !(p[2] * scalar_of<Scalar>(size.height - 1) < p[1]);
-}
-
 /// Turns the right picture about its middle until the epipole is on the axis, and moves it to infinity.
 template <class Scalar>
-constexpr RectifyingHomographies<Scalar> epipole_to_infinity(const Vector<3, Scalar>& epipole, Size size) {
+constexpr Result<RectifyingHomographies<Scalar>> epipole_to_infinity(const Vector<3, Scalar>& epipole,
+                                                                     Size size) {
     const Scalar zero = scalar_of<Scalar>(0);
     const Scalar one = scalar_of<Scalar>(1);
     const Scalar cx = scalar_of<Scalar>(size.width - 1, -1);
@@ -78,6 +70,7 @@ constexpr RectifyingHomographies<Scalar> epipole_to_infinity(const Vector<3, Sca
         z = -z;
     }
     const Scalar length = square_root(x * x + y * y);
+    if (!(zero < length)) return Status::degenerate;
     const Scalar cosine = (along_x ? x : y) / length;
     const Scalar sine = (along_x ? y : -x) / length;
     const Scalar bend = -z / length;
@@ -164,11 +157,11 @@ constexpr Result<RectifyingHomographies<Scalar>> rectify_uncalibrated(const Matr
             return Status::out_of_range;
     const Result<Epipoles<Scalar>> ends = epipoles(fundamental);
     if (!ends) return ends.status();
-    if (detail::in_picture(ends->left, size) || detail::in_picture(ends->right, size))
-        return Status::degenerate;
 
-    RectifyingHomographies<Scalar> found = detail::epipole_to_infinity(ends->right, size);
-    // The rows that must agree; that of the axis is fitted.
+    const Result<RectifyingHomographies<Scalar>> turned = detail::epipole_to_infinity(ends->right, size);
+    if (!turned) return turned;
+    RectifyingHomographies<Scalar> found = *turned;
+    // The rows that must agree; that of the axis is fitted. An epipole in a picture is on its horizon.
     const Matrix<3, 3, Scalar> h = found.right * (cross_matrix(ends->right) * fundamental);
     const Scalar divisor = h(2, 0) * scalar_of<Scalar>(size.width - 1, -1) +
                            h(2, 1) * scalar_of<Scalar>(size.height - 1, -1) + h(2, 2);

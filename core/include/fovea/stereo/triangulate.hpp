@@ -46,11 +46,10 @@ struct PixelPair {
 /// Moves both pixels by the least sum of squares so that right^T F left = 0.
 ///
 /// Rounding  to 2^-48 of how far they are moved
-/// Time      at most 60 steps; two or three for pixels that nearly fit, ten where they are moved by a tenth of
-///           the way to the epipole
-/// Errors    degenerate where the steps do not settle: pixels at the epipoles
-/// Source    Lindstrom, "Triangulation made easy", CVPR 2010, listing 2, repeated until it settles, where it is
-///           the optimum of Hartley and Sturm, "Triangulation", CVIU 68(2), 1997
+/// Time      at most 60 steps; five for pixels that fit to a pixel, ten for what is off by 30
+/// Errors    degenerate where the steps do not settle: both pixels near the epipoles
+/// Source    Lindstrom, "Triangulation made easy", CVPR 2010: his steps, repeated until they settle. Away
+///           from the epipoles that is the optimum of Hartley and Sturm, "Triangulation", CVIU 68(2), 1997
 template <class Scalar>
 constexpr Result<PixelPair<Scalar>> nearest_matching(const Matrix<3, 3, Scalar>& fundamental,
                                                      const Vector<2, Scalar>& left,
@@ -149,8 +148,8 @@ constexpr Result<PixelPair<Scalar>> nearest_matching(const Matrix<3, 3, Scalar>&
     Vector<2, Scalar> left_move;
     Vector<2, Scalar> right_move;
     for (int i = 0; i < 60; ++i) {
-        // Both are moved square to the lines of each other where they are now; the quadratic equation says how
-        // far from where they were seen.
+        // Both are moved square to the lines of each other where they are now; the quadratic equation says
+        // how far from where they were seen.
         const Vector<2, Scalar> n = slope(back, right + right_move);
         const Vector<2, Scalar> m = slope(f, left + left_move);
         const Scalar a = m[0] * (f(0, 0) * n[0] + f(0, 1) * n[1]) + m[1] * (f(1, 0) * n[0] + f(1, 1) * n[1]);
