@@ -14,6 +14,7 @@
 #include <fovea/image/geometry.hpp>
 #include <fovea/number/real.hpp>
 #include <fovea/number/real_text.hpp>
+#include <fovea/stereo/stereo_camera.hpp>
 
 #include <common/text.hpp>
 
@@ -33,19 +34,29 @@ struct CameraRecord {
     std::optional<Real> rms_px;
 };
 
-enum class CameraFormat : std::uint8_t { unknown, toml, ivt, opencv };
+enum class CameraFormat : std::uint8_t { unknown, toml, ivt, opencv, chip };
 
 struct CameraFile {
     CameraFormat format = CameraFormat::unknown;
     /// One or two.
     std::vector<CameraRecord> cameras;
     std::optional<Real> stereo_rms_px;
+    /// The file says how two cameras stand to each other.
+    bool related = true;
     TextPlace place;      ///< of the problem
     std::string problem;  ///< "" if the file is good
 
     bool stereo() const { return cameras.size() == 2; }
-    /// From the first camera's coordinates to the second's.
-    Pose<> right_of_left() const { return compose(cameras[1].pose, inverse(cameras[0].pose)); }
+    /// From the first camera's coordinates to the second's, to the last digit of the file if it says just that.
+    Pose<> right_from_left() const {
+        const Pose<>& left = cameras[0].pose;
+        if (left.rotation == Matrix<3, 3>::identity() && left.translation == Vector<3>())
+            return cameras[1].pose;
+        // Both are rotations, and so is their product.
+        const Result<Pose<>> pose = fovea::right_from_left(left, cameras[1].pose);
+        return pose ? *pose : Pose<>();
+    }
+    StereoCamera<> pair() const { return {cameras[0].camera, cameras[1].camera, right_from_left()}; }
 };
 
 inline const char* describe(CameraFormat format) {
@@ -53,6 +64,7 @@ inline const char* describe(CameraFormat format) {
         case CameraFormat::toml: return "fovea's TOML";
         case CameraFormat::ivt: return "the toolkit's text";
         case CameraFormat::opencv: return "OpenCV's YAML";
+        case CameraFormat::chip: return "bytes for a chip";
         case CameraFormat::unknown: break;
     }
     return "unknown";
@@ -78,11 +90,20 @@ inline constexpr CameraParameter camera_parameters[] = {
     {"p2", &Camera<>::p2, false, "second tangential term"},
 };
 
-/// A number with so many digits; whole_real_digits to read the same again.
-inline std::string real_text(Real value, int digits = whole_real_digits) {
+/// A number with so many digits.
+inline std::string real_text(Real value, int digits) {
     char buffer[8 + whole_real_digits];
     const Result<int> length = print_real(value, digits, buffer);
     return length ? std::string(buffer, static_cast<std::size_t>(*length)) : "0";
+}
+/// The shortest text that is read as the same number.
+inline std::string exact_text(Real value) {
+    for (int digits = 1; digits < whole_real_digits; ++digits) {
+        const std::string text = real_text(value, digits);
+        const Result<Real> read = parse_real(span_of(text));
+        if (read && *read == value) return text;
+    }
+    return real_text(value, whole_real_digits);
 }
 
 /// What is wrong with a camera that was read, "" if it can be worked with: numbers are of a size that cameras

@@ -85,7 +85,7 @@ private:
         while (at_ < text_.size() && text_[at_] != ' ' && !(text_[at_] >= '\t' && text_[at_] <= '\r')) ++at_;
         const std::string word = text_.substr(start, at_ - start);
         if (word.empty())
-            return fail("the file ends before " + what + (file_.cameras.empty() ? "" : " is whole"));
+            return fail((file_.cameras.empty() ? "the file ends before " : "the file ends within ") + what);
         const Result<Real> read = parse_real(span_of(word));
         if (!read) return fail("'" + one_line(shortened(word, 24)) + "' is no number; of " + what);
         number = *read;
@@ -137,7 +137,7 @@ inline CameraFile read_camera_ivt(const std::string& text) { return detail::IvtC
 
 inline std::string camera_ivt(const CameraFile& file, const Matrix<3, 3> (&rectified)[2]) {
     std::string text = std::to_string(file.cameras.size()) + "\n";
-    const auto put = [&](Real number) { text += " " + real_text(number); };
+    const auto put = [&](Real number) { text += " " + exact_text(number); };
     for (const CameraRecord& record : file.cameras) {
         text += "\n " + std::to_string(record.size.width) + " " + std::to_string(record.size.height);
         const Camera<>& camera = record.camera;

@@ -6,12 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/camera/packed_camera.hpp>
 #include <fovea/codec/any_picture.hpp>
 
 #include <camera/camera_file.hpp>
+#include <camera/chip_camera.hpp>
 #include <camera/ivt_camera.hpp>
 #include <camera/opencv_camera.hpp>
 #include <camera/toml_camera.hpp>
@@ -25,6 +29,7 @@ inline CameraFormat camera_format(const std::string& text) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string::npos) return CameraFormat::unknown;
     if (text.compare(0, 5, "%YAML") == 0) return CameraFormat::opencv;
+    if (text.compare(0, 4, "FVCM") == 0) return CameraFormat::chip;
     // A number, and behind it another one: nothing of the kind begins TOML or YAML.
     const std::size_t behind = text.find_first_of(" \t\r\n", first);
     const std::size_t second =
@@ -48,6 +53,7 @@ inline CameraFile read_camera(const std::string& text) {
         case CameraFormat::toml: return read_camera_toml(text);
         case CameraFormat::ivt: return read_camera_ivt(text);
         case CameraFormat::opencv: return read_camera_opencv(text);
+        case CameraFormat::chip: return read_camera_chip(text);
         case CameraFormat::unknown: break;
     }
     CameraFile file;
@@ -97,7 +103,7 @@ bool load_camera(Io& io, const std::string& name, CameraFile& file) {
             problem_name = part;
             line = file.place.line - before;
         }
-    const bool placed = file.format != CameraFormat::unknown;
+    const bool placed = file.format != CameraFormat::unknown && file.format != CameraFormat::chip;
     io.complain(problem_name +
                 (placed ? ":" + std::to_string(line) + ":" + std::to_string(file.place.column) : "") + ": " +
                 file.problem);

@@ -213,16 +213,15 @@ private:
         }
         if (left == nullptr || right == nullptr)
             return fail((left != nullptr ? left : right)->line, "of M1 and M2 one is missing");
-        if (rotation == nullptr || translation == nullptr)
-            return fail(left->line,
-                        "two cameras without R and T; give both files: --camera INTRINSICS,EXTRINSICS");
         file_.cameras.resize(2);
         for (CameraRecord& record : file_.cameras) record.size = size;
         std::vector<Real> r, t;
         if (!camera_in(*left, find({"D1", "distCoeffs1"}), file_.cameras[0]) ||
-            !camera_in(*right, find({"D2", "distCoeffs2"}), file_.cameras[1]) ||
-            !matrix_in(*rotation, {9}, r) || !matrix_in(*translation, {3}, t))
+            !camera_in(*right, find({"D2", "distCoeffs2"}), file_.cameras[1]))
             return false;
+        file_.related = rotation != nullptr && translation != nullptr;
+        if (!file_.related) return true;
+        if (!matrix_in(*rotation, {9}, r) || !matrix_in(*translation, {3}, t)) return false;
         Pose<>& pose = file_.cameras[1].pose;
         for (int i = 0; i < 9; ++i) pose.rotation(i / 3, i % 3) = r[static_cast<std::size_t>(i)];
         for (int i = 0; i < 3; ++i) pose.translation[i] = t[static_cast<std::size_t>(i)];
@@ -245,7 +244,7 @@ inline std::string camera_opencv(const CameraFile& file) {
     std::string text = "%YAML:1.0\n---\n";
     // A number that its reader takes for a real one.
     const auto written = [](Real number) {
-        const std::string digits = real_text(number);
+        const std::string digits = exact_text(number);
         return digits + (digits.find_first_of(".e") == std::string::npos ? "." : "");
     };
     const auto matrix = [&](const std::string& name, int rows, int columns,
@@ -273,7 +272,7 @@ inline std::string camera_opencv(const CameraFile& file) {
             text += "avg_reprojection_error: " + written(*file.cameras[0].rms_px) + "\n";
         return text;
     }
-    const Pose<> pose = file.right_of_left();
+    const Pose<> pose = file.right_from_left();
     std::vector<Real> r, t;
     for (int i = 0; i < 9; ++i) r.push_back(pose.rotation(i / 3, i % 3));
     for (int i = 0; i < 3; ++i) t.push_back(pose.translation[i]);

@@ -196,17 +196,17 @@ inline std::string camera_toml(const CameraFile& file) {
         "OpenCV.\nformat = 1\n";
     const auto array = [](std::initializer_list<Real> numbers) {
         std::string list;
-        for (const Real& number : numbers) list += (list.empty() ? "[" : ", ") + real_text(number);
+        for (const Real& number : numbers) list += (list.empty() ? "[" : ", ") + exact_text(number);
         return list + "]";
     };
-    if (file.stereo_rms_px) text += "stereo_rms_px = " + real_text(*file.stereo_rms_px) + "\n";
+    if (file.stereo_rms_px) text += "stereo_rms_px = " + exact_text(*file.stereo_rms_px) + "\n";
     for (const CameraRecord& record : file.cameras) {
         text += "\n[[camera]]\n";
         if (!record.size.empty())
             text += "size = [" + std::to_string(record.size.width) + ", " +
                     std::to_string(record.size.height) + "]\n";
         for (const CameraParameter& parameter : camera_parameters)
-            text += std::string(parameter.name) + " = " + real_text(record.camera.*parameter.member) + "\n";
+            text += std::string(parameter.name) + " = " + exact_text(record.camera.*parameter.member) + "\n";
         const Pose<>& pose = record.pose;
         const Matrix<3, 3>& r = pose.rotation;
         const bool placed = r != Matrix<3, 3>::identity() || pose.translation != Vector<3>();
@@ -219,11 +219,11 @@ inline std::string camera_toml(const CameraFile& file) {
                 "translation = " + array({pose.translation[0], pose.translation[1], pose.translation[2]}) +
                 "\n";
         }
-        if (record.rms_px) text += "rms_px = " + real_text(*record.rms_px) + "\n";
+        if (record.rms_px) text += "rms_px = " + exact_text(*record.rms_px) + "\n";
         if (record.deviations)
             for (const CameraParameter& parameter : camera_parameters)
                 text += std::string(parameter.name) +
-                        "_deviation = " + real_text((*record.deviations).*parameter.member) + "\n";
+                        "_deviation = " + exact_text((*record.deviations).*parameter.member) + "\n";
     }
     return text;
 }
