@@ -55,9 +55,17 @@ struct Figures {
         highest_rms = std::max(highest_rms, found / expected);
     }
     void row(const char* name) const {
-        std::printf("| %s | %d | %d | %.1e | %.2f | %.1f | %.2f to %.2f | %.1f, %d | %.3f |\n", name, count,
-                    failures, most_apart, std::sqrt(squares / terms), most_from_truth, lowest_rms,
-                    highest_rms, double(linearisations) / count, most_linearisations, most_open);
+        std::printf("| %s | %d | %d | %.1e | ", name, count, failures, most_apart);
+        if (terms > 0)
+            std::printf("%.2f, %.1f", std::sqrt(squares / terms), most_from_truth);
+        else
+            std::printf("-");
+        std::printf(" | %.2f to %.2f | %.1f, %d | ", lowest_rms, highest_rms,
+                    static_cast<double>(linearisations) / count, most_linearisations);
+        if (most_open > 0)
+            std::printf("%.3f |\n", most_open);
+        else
+            std::printf("- |\n");
     }
 };
 
@@ -136,7 +144,9 @@ Figures rigs(int count, StereoOptions::Intrinsics intrinsics) {
         const double rms = scene.left.noise * std::sqrt((2 * points - unknowns) / points);
         const auto share = static_cast<double>(value_of(c.rms));
         figures.rms(share, rms);
-        if (apart > 1e-9 || std::abs(share / rms - 1) > 0.2) {
+        // Cameras that are held keep what is wrong with them.
+        const double most = intrinsics == StereoOptions::Intrinsics::held ? 1.5 : 1.2;
+        if (apart > 1e-9 || share / rms > most || share / rms < 0.8) {
             ++figures.failures;
             std::printf("rig %d: %g deviations apart, rms %g of %g\n", i, apart, share, rms);
         }
@@ -149,11 +159,10 @@ Figures rigs(int count, StereoOptions::Intrinsics intrinsics) {
 int main(int argc, char** argv) {
     const int count = argc > 1 ? std::atoi(argv[1]) : 200;
     std::printf(
-        "| random | calibrations | failures | Real from long double, most, in deviations | from the truth, "
-        "rms, in "
-        "deviations | most | rms of its expectation | equations, mean and most | least certain of fx, cx, cy "
-        "by fx |\n");
-    std::printf("|---|---|---|---|---|---|---|---|---|\n");
+        "| random | calibrations | failures | Real from long double | from the truth, rms and most | rms of "
+        "what "
+        "is expected | equations, mean and most | largest deviation of fx, cx, cy by fx |\n"
+        "|---|---|---|---|---|---|---|---|\n");
     const Figures one = cameras(count);
     one.row("cameras");
     const Figures held = rigs(count, StereoOptions::Intrinsics::held);

@@ -62,8 +62,9 @@ constexpr std::int64_t calibrate_planar_scratch(int views) {
 /// Time      bounded, see levenberg_marquardt(); 8 to 12 times all points for a usual camera
 /// Scratch   calibrate_planar_scratch<Scalar>(views) bytes, undefined afterwards
 /// Errors    see CalibrationProblem. parallel_views is answered where a focal length or the principal point
-///           has a standard deviation of more than an eighth of the focal length, which is what boards that
-///           are parallel leave. After an error fits and calibration are untouched
+///           has a standard deviation of more than an eighth of the focal length, and, if more than two of
+///           the four are estimated, where no board is tilted by 3.6 degrees to the first: only the lens, or
+///           noise, would decide then. After an error fits and calibration are untouched
 /// Source    Zhang, "A flexible new technique for camera calibration", IEEE PAMI 22(11), 2000; the start by
 ///           FocalStart in place of the closed form for five unknowns. Deviations from the inverse of the
 ///           normal equations times the variance that the residuals show
@@ -132,14 +133,15 @@ CalibrationVerdict PlanarSystem<Scalar>::start(Size picture) {
     FocalStart<Scalar> focal(picture);
     for (int view = 0; view < equations_.views(); ++view) {
         const auto homography = fit_homography<Scalar>(views_[view].board, views_[view].seen);
-        if (!homography) return {CalibrationProblem::collinear_points, view};
+        if (!homography) return {problem_of_homography(homography.status(), views_[view].board), view};
         focal.add(*homography);
+        // Kept where the pose will stand.
+        poses_[view].rotation = *homography;
     }
     camera_ = focal.camera();
     if (terms_.square()) camera_.fy = camera_.fx;
     for (int view = 0; view < equations_.views(); ++view) {
-        const auto homography = fit_homography<Scalar>(views_[view].board, views_[view].seen);
-        const auto pose = pose_of_plane(camera_, *homography);
+        const auto pose = pose_of_plane(camera_, poses_[view].rotation);
         if (!pose) return {CalibrationProblem::collinear_points, view};
         poses_[view] = *pose;
         if (!cost_of(view)) return {CalibrationProblem::board_behind, view};
@@ -233,7 +235,8 @@ CalibrationVerdict calibrate_planar(Span<const PlanarView> views, Size picture,
     result.deviation =
         terms.deviations<Scalar>([&](int i) { return equations.shared_variance(i) * variance; });
     result.rms = square_root(result.refinement.cost / scalar_of<Scalar>(points));
-    if (!detail::FreeTerms::determined(result.camera, result.deviation))
+    if (!detail::FreeTerms::determined(result.camera, result.deviation) ||
+        (terms.of_pinhole() > 2 && detail::all_parallel<Scalar>(poses)))
         return {CalibrationProblem::parallel_views, -1};
     if (!result.refinement.converged) return {CalibrationProblem::no_convergence, -1};
 

@@ -13,6 +13,7 @@
 #include <fovea/image/geometry.hpp>
 #include <fovea/linear/matrix.hpp>
 #include <fovea/match/point_pair.hpp>
+#include <fovea/number/real.hpp>
 #include <fovea/number/scalar.hpp>
 
 namespace fovea {
@@ -43,7 +44,7 @@ enum class CalibrationProblem : std::uint8_t {
     size_mismatch,      ///< not as many points of the board as are seen
     too_few_points,     ///< fewer than 4 points in a view, or no more equations than unknowns
     outside_picture,    ///< a point is seen where there is no picture
-    collinear_points,   ///< the points of a view lie on a line, or are not those of a plane
+    collinear_points,   ///< the points of a view lie on a line, on the board or in the picture
     board_behind,       ///< a part of a board would lie behind the camera
     parallel_views,     ///< the boards lie too much alike: the intrinsics remain open
     no_convergence,     ///< no bottom was found: points are given to the wrong places of the board
@@ -88,7 +89,7 @@ constexpr const char* describe(CalibrationProblem problem) {
         case CalibrationProblem::size_mismatch: return "not as many points of the board as are seen";
         case CalibrationProblem::too_few_points: return "too few points";
         case CalibrationProblem::outside_picture: return "a point lies outside the picture";
-        case CalibrationProblem::collinear_points: return "the points are not those of a plane";
+        case CalibrationProblem::collinear_points: return "the points of a view lie on a line";
         case CalibrationProblem::board_behind: return "a part of the board would be behind the camera";
         case CalibrationProblem::parallel_views: return "the views are too much alike";
         case CalibrationProblem::no_convergence: return "no camera fits the points";
@@ -195,6 +196,29 @@ constexpr bool inside(SubPixelPoint point, Size picture) {
            point.y.raw() <= bottom;
 }
 
+/// Whether points are those of a board that is seen from its edge: less than 1/128 as wide as long.
+constexpr bool flat(Span<const SubPixelPoint> seen) {
+    Real x;
+    Real y;
+    for (const SubPixelPoint point : seen) {
+        x += Real::from_fixed(point.x);
+        y += Real::from_fixed(point.y);
+    }
+    const Real share = Real::from_ratio(1, seen.size());
+    Real xx;
+    Real xy;
+    Real yy;
+    for (const SubPixelPoint point : seen) {
+        const Real dx = Real::from_fixed(point.x) - x * share;
+        const Real dy = Real::from_fixed(point.y) - y * share;
+        xx += dx * dx;
+        xy += dx * dy;
+        yy += dy * dy;
+    }
+    const Real size = xx + yy;
+    return !((size * size).scaled(-14) < xx * yy - xy * xy);
+}
+
 /// What is wrong with the points of one view.
 constexpr CalibrationProblem problem_of_points(Span<const PlanePoint> board, Span<const SubPixelPoint> seen,
                                                Size picture) {
@@ -202,7 +226,7 @@ constexpr CalibrationProblem problem_of_points(Span<const PlanePoint> board, Spa
     if (board.size() < 4) return CalibrationProblem::too_few_points;
     for (const SubPixelPoint point : seen)
         if (!inside(point, picture)) return CalibrationProblem::outside_picture;
-    return CalibrationProblem::none;
+    return flat(seen) ? CalibrationProblem::collinear_points : CalibrationProblem::none;
 }
 
 /// A point of a board whose z is 0, turned by a rotation.

@@ -3,12 +3,19 @@
 // A camera and poses to start from, out of homographies between a board and its pictures.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/camera/calibration.hpp>
 #include <fovea/camera/camera.hpp>
 #include <fovea/camera/pose.hpp>
 #include <fovea/image/geometry.hpp>
 #include <fovea/linear/matrix.hpp>
+#include <fovea/match/fit_homography.hpp>
+#include <fovea/match/point_pair.hpp>
+#include <fovea/number/int128.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/number/scalar.hpp>
 
@@ -137,4 +144,46 @@ constexpr Result<Pose<Scalar>> pose_of_plane(const Camera<Scalar>& camera,
                         h[2] * share};
 }
 
+namespace detail {
+
+/// Whether all points but one at most lie on the line through two of them.
+constexpr bool on_a_line(Span<const PlanePoint> board, std::ptrdiff_t first, std::ptrdiff_t second) {
+    const std::int64_t x = std::int64_t{board[second].x} - board[first].x;
+    const std::int64_t y = std::int64_t{board[second].y} - board[first].y;
+    if (x == 0 && y == 0) return false;
+    int beside = 0;
+    for (const PlanePoint point : board) {
+        const std::int64_t dx = std::int64_t{point.x} - board[first].x;
+        const std::int64_t dy = std::int64_t{point.y} - board[first].y;
+        if (Int128::product(x, dy) != Int128::product(y, dx)) ++beside;
+    }
+    return beside <= 1;
+}
+
+/// Why a board has no homography to its picture.
+constexpr CalibrationProblem problem_of_homography(Status status, Span<const PlanePoint> board) {
+    if (status != Status::degenerate) return CalibrationProblem::bad_argument;
+    // Three points, two of which are on any line that all but one are on; equal ones are not asked for more.
+    std::ptrdiff_t other = 1;
+    while (other < board.size() && board[other] == board[0]) ++other;
+    if (other == board.size()) return CalibrationProblem::collinear_points;
+    std::ptrdiff_t third = other + 1;
+    while (third < board.size() && (board[third] == board[0] || board[third] == board[other])) ++third;
+    if (third == board.size() || on_a_line(board, 0, other) || on_a_line(board, 0, third) ||
+        on_a_line(board, other, third))
+        return CalibrationProblem::collinear_points;
+    return CalibrationProblem::board_behind;
+}
+
+/// Whether no board is tilted to the first: the sine of the angle between their normals is below 1/16.
+template <class Scalar>
+constexpr bool all_parallel(Span<const Pose<Scalar>> poses) {
+    for (std::ptrdiff_t view = 1; view < poses.size(); ++view) {
+        const Vector<3, Scalar> across = cross(poses[0].rotation.column(2), poses[view].rotation.column(2));
+        if (scalar_of<Scalar>(1, -8) < dot(across, across)) return false;
+    }
+    return true;
+}
+
+}  // namespace detail
 }  // namespace fovea

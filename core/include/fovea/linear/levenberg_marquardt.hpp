@@ -17,8 +17,9 @@ namespace fovea {
 // ---- Interface --------------------------------------------------------------------
 
 struct LevenbergMarquardtOptions {
-    /// Equations are set up so often at most, 1 or more. Problems that are well posed need 5 to 15.
-    int most_linearisations = 60;
+    /// Equations are set up so often at most, 1 or more. Problems that are well posed need 5 to 15; where
+    /// unknowns are nearly open, some ten more.
+    int most_linearisations = 200;
 };
 
 /// What a refinement came to.

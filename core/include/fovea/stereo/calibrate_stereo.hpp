@@ -303,7 +303,8 @@ CalibrationVerdict calibrate_stereo(Span<const StereoView> views, const Calibrat
         [&](int i) { return equations.shared_variance(6 + terms.count() + i) * variance; });
     result.rms = square_root(result.refinement.cost / scalar_of<Scalar>(points));
     bool open = !detail::FreeTerms::determined(result.left, result.left_deviation) ||
-                !detail::FreeTerms::determined(result.right, result.right_deviation);
+                !detail::FreeTerms::determined(result.right, result.right_deviation) ||
+                (terms.of_pinhole() > 2 && detail::all_parallel<Scalar>(poses));
     for (int i = 0; i < 3; ++i)
         if (!(result.rotation_deviation[i] < scalar_of<Scalar>(1, -3))) open = true;
     if (open) return {CalibrationProblem::parallel_views, -1};

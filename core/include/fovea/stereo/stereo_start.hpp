@@ -66,7 +66,7 @@ template <class Scalar>
 constexpr CalibrationProblem find_board_pose(const Camera<Scalar>& camera, Span<const PlanePoint> board,
                                              Span<const SubPixelPoint> seen, Pose<Scalar>& pose) {
     const auto homography = fit_homography<Scalar>(board, seen);
-    if (!homography) return CalibrationProblem::collinear_points;
+    if (!homography) return problem_of_homography(homography.status(), board);
     const auto start = pose_of_plane(camera, *homography);
     if (!start) return CalibrationProblem::collinear_points;
     pose = *start;
