@@ -39,7 +39,8 @@ inline void leave_out_copies(std::vector<SeenBoard>& boards) {
 inline std::string sizes_problem(const std::vector<SeenBoard>& boards) {
     const SeenBoard* first = nullptr;
     for (const SeenBoard& board : boards) {
-        if (board.picture.empty()) continue;
+        // A picture without a board does no harm, whatever it is of.
+        if (!board.found) continue;
         if (first == nullptr) first = &board;
         if (board.picture == first->picture) continue;
         const bool turned =
@@ -60,7 +61,11 @@ public:
     ExitCode run() {
         boards_ = see(options_.images, false);
         if (options_.stereo()) right_boards_ = see(options_.right, true);
-        if (failed_ || !check(boards_, "") || (options_.stereo() && !check(right_boards_, ""))) return fail();
+        if (failed_) return fail("a picture could not be read, or one not be written");
+        for (const std::vector<SeenBoard>* boards : {&boards_, &right_boards_}) {
+            if (boards->empty()) continue;
+            if (const std::string problem = boards_problem(*boards); !problem.empty()) return refuse(problem);
+        }
         return options_.stereo() ? run_pair() : run_one();
     }
 
@@ -71,10 +76,10 @@ private:
         for (std::size_t i = 0; i < names.size(); ++i) {
             Picture<Gray8> image;
             SeenBoard seen = see_board(io_, names[i], options_.board, image);
-            io_.complain(names[i] + ": " +
-                         (seen.found ? std::to_string(seen.corners.size()) + " " +
-                                           what_is_seen(options_.board.pattern)
-                                     : seen.reason));
+            io_.complain(
+                names[i] + ": " +
+                (seen.found ? std::to_string(seen.corners.size()) + " " + what_is_seen(options_.board.pattern)
+                            : seen.reason));
             if (seen.picture.empty()) failed_ = true;
             if (!seen.found && !seen.picture.empty() && missed_.size.empty()) missed_ = image;
             const std::string name = options_.explain_name(of_right, i);
@@ -89,34 +94,30 @@ private:
         leave_out_copies(boards);
         return boards;
     }
-    bool check(const std::vector<SeenBoard>& boards, const std::string& who) {
-        if (const std::string problem = sizes_problem(boards); !problem.empty()) {
-            complain(who + problem);
-            return false;
-        }
+    /// Why these pictures are none to calibrate from; "" if they are.
+    std::string boards_problem(const std::vector<SeenBoard>& boards) {
+        if (const std::string problem = sizes_problem(boards); !problem.empty()) return problem;
         if (std::any_of(boards.begin(), boards.end(), [](const SeenBoard& board) { return board.found; }))
-            return true;
+            return "";
         const Size other = likely_board(missed_, options_.board);
-        complain("no picture shows the whole board; " +
-                 (other.empty() ? "--board counts inner corners, so that 10x7 squares are 9x6; is the board whole "
-                                  "in the pictures, with a bright rim, sharp and evenly lit?"
-                                : "a board of " + board_text(other) + " is seen: give --board " +
-                                      board_text(other)));
-        return false;
+        return "no picture shows the whole board; " +
+               (other.empty()
+                    ? "--board counts inner corners, so that 10x7 squares are 9x6; is the board whole "
+                      "in the pictures, with a bright rim, sharp and evenly lit?"
+                    : "a board of " + board_text(other) + " is seen: give --board " + board_text(other));
     }
-    void complain(const std::string& problem) { io_.complain("fovea calibrate: " + problem); }
     /// Ends without a calibration. What was seen is told to machines all the same.
-    ExitCode fail() {
+    ExitCode fail(const std::string& problem) {
         if (options_.json) {
             io_.print(json_views(options_.stereo() ? "left" : "", boards_, {}));
             if (options_.stereo()) io_.print(json_views("right", right_boards_, {}));
-            io_.print("{\"rms_px\":null,\"error\":" + json_string("no calibration") + "}\n");
+            io_.print("{\"rms_px\":null,\"error\":" + json_string(problem) + "}\n");
         }
         return exit_failed;
     }
     ExitCode refuse(const std::string& problem) {
-        complain(problem);
-        return fail();
+        io_.complain("fovea calibrate: " + problem);
+        return fail(problem);
     }
 
     ExitCode run_one() {
@@ -145,16 +146,15 @@ private:
                 return refuse(no_calibration(std::string("no calibration of the ") + who,
                                              estimate->blamed(*boards), estimate->verdict.problem));
         const StereoOptions options = options_.pair();
-        const PairEstimate pair =
-            estimate_pair(boards_, right_boards_, left, right, options_.board, options);
+        const PairEstimate pair = estimate_pair(boards_, right_boards_, left, right, options_.board, options);
         if (pair.views.empty())
             return refuse("no pair shows the board in both pictures; stand where both cameras see all of it");
         if (!pair.verdict.ok()) {
             const int view = pair.verdict.view;
-            return refuse(no_calibration(
-                "no calibration of both together",
-                view < 0 ? "" : boards_[pair.views[static_cast<std::size_t>(view)].seen].name,
-                pair.verdict.problem));
+            return refuse(
+                no_calibration("no calibration of both together",
+                               view < 0 ? "" : boards_[pair.views[static_cast<std::size_t>(view)].seen].name,
+                               pair.verdict.problem));
         }
         judge_camera(boards_, left, "left", warnings_);
         judge_camera(right_boards_, right, "right", warnings_);
@@ -162,13 +162,13 @@ private:
         const StereoCalibration<>& found = pair.calibration;
         const bool held = options.intrinsics == StereoOptions::Intrinsics::held;
         if (options_.json)
-            io_.print(json_views("left", boards_, left.views) + json_views("right", right_boards_, right.views) +
+            io_.print(json_views("left", boards_, left.views) +
+                      json_views("right", right_boards_, right.views) +
                       json_pair(boards_, right_boards_, left, right, pair, held, warnings_));
         const LensTerms lens = options_.intrinsics.lens;
-        const std::string report =
-            human_estimate("left camera", boards_, left, lens) + "\n" +
-            human_estimate("right camera", right_boards_, right, lens) + "\n" +
-            human_pair(pair, boards_, options, left.picture, right.picture) + "\n";
+        const std::string report = human_estimate("left camera", boards_, left, lens) + "\n" +
+                                   human_estimate("right camera", right_boards_, right, lens) + "\n" +
+                                   human_pair(pair, boards_, options, left.picture, right.picture) + "\n";
         std::vector<CameraRecord> records = {
             record_of(left, found.left, held ? left.calibration.deviation : found.left_deviation),
             record_of(right, found.right, held ? right.calibration.deviation : found.right_deviation)};

@@ -30,7 +30,8 @@ inline Command calibrate_help() {
          {"format", "toml|ivt|opencv|chip",
           "of that file; if not given, what its name ends in says: .yml\nor .yaml is opencv, .txt ivt, .bin "
           "chip, all else toml"},
-         {"left", "IMAGE...", "pictures of the left camera, all words up to the next option, or a\nlist with commas"},
+         {"left", "IMAGE...",
+          "pictures of the left camera, all words up to the next option, or a\nlist with commas"},
          {"right", "IMAGE...", "pictures of the right camera at the same moments, in the same order"},
          {"free", "",
           "of a pair: estimate both cameras again, together; if not given,\nthey stay as each was calibrated "
@@ -77,9 +78,9 @@ struct CalibrateOptions {
         const std::size_t dot = explain.rfind('.');
         const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash + 1);
         const std::string ending = has_ending ? explain.substr(dot) : "";
-        return numbered(explain.substr(0, explain.size() - ending.size()) + (of_right ? "-right" : "-left") +
-                            ending,
-                        index);
+        return numbered(
+            explain.substr(0, explain.size() - ending.size()) + (of_right ? "-right" : "-left") + ending,
+            index);
     }
 };
 
@@ -125,8 +126,7 @@ inline std::string read_lens(const std::string& text, LensTerms& lens) {
     for (const char c : small_letters(text))
         if (c != ',' && c != '_') plain += c;
     const auto found = std::find(names.begin(), names.end(), plain);
-    if (found == names.end())
-        return "--lens is " + listed(names, "or") + ", not '" + one_line(text) + "'";
+    if (found == names.end()) return "--lens is " + listed(names, "or") + ", not '" + one_line(text) + "'";
     lens = static_cast<LensTerms>(found - names.begin());
     return "";
 }
@@ -143,8 +143,7 @@ inline std::string read_format(const Arguments& arguments, const std::string& ou
                                     CameraFormat::chip};
     const std::string text = arguments.value("format");
     const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end())
-        return "--format is " + listed(names, "or") + ", not '" + one_line(text) + "'";
+    if (found == names.end()) return "--format is " + listed(names, "or") + ", not '" + one_line(text) + "'";
     if (out.empty()) return "--format is of a file to write; give -o FILE too";
     format = formats[found - names.begin()];
     return "";
@@ -154,8 +153,9 @@ inline std::string read_format(const Arguments& arguments, const std::string& ou
 inline std::string lists_problem(const Arguments& arguments, const std::vector<std::string>& left,
                                  const std::vector<std::string>& right) {
     if (!arguments.has("left") && !arguments.has("right"))
-        return arguments.operands().empty() ? "which pictures? give IMAGE..., or --left IMAGE... --right IMAGE..."
-                                            : "";
+        return arguments.operands().empty()
+                   ? "which pictures? give IMAGE..., or --left IMAGE... --right IMAGE..."
+                   : "";
     if (!arguments.operands().empty())
         return "IMAGE... are of one camera, --left and --right of two; give the one or the other";
     if (left.empty() || right.empty())

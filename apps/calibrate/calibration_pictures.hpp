@@ -25,7 +25,7 @@
 
 namespace fovea::apps {
 
-/// An image with the corners of its board, joined in their order from red to blue, a ring at the first; or
+/// An image with the corners of its board, joined in their order, rows in six colours, a ring at the first; or
 /// with the reason why there is none. Small images are magnified.
 Picture<Rgb888> explain_board(const Picture<Gray8>& image, const SeenBoard& seen, const Board& board);
 
@@ -36,7 +36,7 @@ struct CoveragePanel {
     const CameraEstimate* estimate = nullptr;
 };
 
-/// Every corner at its place, coloured by how far off it is, with a line to where the camera sees it, fifty
+/// Every corner at its place, coloured by how far off it is, with a line to where the camera sees it, many
 /// times as long; cells of the picture without a corner are hatched. Cameras side by side.
 Picture<Rgb888> coverage_picture(const std::vector<CoveragePanel>& panels);
 
@@ -61,14 +61,13 @@ inline Picture<Rgb888> explain_board(const Picture<Gray8>& image, const SeenBoar
         return Point{scaled(corner.x), scaled(corner.y)};
     };
     const auto draw = [](Status) {};  // what lies outside is not drawn
+    constexpr Rgb888 rows[] = {{255, 80, 70},  {255, 165, 40}, {250, 235, 80},
+                               {90, 225, 100}, {70, 200, 255}, {190, 140, 255}};
     const int count = static_cast<int>(seen.corners.size());
     Point last;
     for (int i = 0; i < count; ++i) {
         const Point at = place(seen.corners[static_cast<std::size_t>(i)]);
-        const int share = i / board.size.width * 255 / maximum(board.size.height - 1, 1);
-        const Rgb888 colour{static_cast<std::uint8_t>(255 - share * 3 / 4),
-                            static_cast<std::uint8_t>(70 + share / 2),
-                            static_cast<std::uint8_t>(60 + share * 3 / 4)};
+        const Rgb888 colour = rows[i / board.size.width % 6];
         if (i > 0) draw(draw_line(view, last, at, colour, pen));
         draw(draw_circle(view, at, 4 * pen, colour, pen));
         last = at;
@@ -88,10 +87,9 @@ class CoverageDrawing {
 public:
     static constexpr int plot_width = 640;
     static constexpr int margin_left = 44;
-    static constexpr int margin_right = 24;
+    static constexpr int margin_right = 36;
     static constexpr int top = 54;
     static constexpr int below = 104;
-    static constexpr int times = 50;
 
     static Size size_of(Size picture) {
         return {margin_left + plot_width + margin_right, top + plot_height(picture) + below};
@@ -101,16 +99,16 @@ public:
           panel_(panel),
           picture_(panel.estimate->picture),
           corner_{left + margin_left, top},
-          size_{plot_width, plot_height(picture_)} {}
+          size_{plot_width, plot_height(picture_)},
+          times_(times_for(panel.estimate->calibration.rms, picture_.width)) {}
 
     void draw() {
         const CameraEstimate& estimate = *panel_.estimate;
         std::size_t points = 0;
         for (const ViewFit& view : estimate.views) points += view.residuals.size();
         text({corner_.x, 10}, panel_.title, ink, 2);
-        text({corner_.x, 34},
-             std::to_string(estimate.views.size()) + " views, " + std::to_string(points) + " corners, rms " +
-                 number(estimate.calibration.rms, 3) + " px");
+        text({corner_.x, 34}, std::to_string(estimate.views.size()) + " views, " + std::to_string(points) +
+                                  " corners, rms " + number(estimate.calibration.rms, 3) + " px");
         put(fill_rectangle(paper_, {corner_.x, corner_.y, size_.width, size_.height}, white));
         hatch_empty_cells();
         grid();
@@ -136,8 +134,17 @@ private:
         {2, {24, 120, 190}}, {4, {30, 150, 80}}, {6, {225, 140, 0}}, {0, {205, 30, 40}}};
 
     static int plot_height(Size picture) {
-        return clamp(static_cast<int>(std::int64_t{plot_width} * picture.height / maximum(picture.width, 1)), 40,
-                     4 * plot_width);
+        return clamp(static_cast<int>(std::int64_t{plot_width} * picture.height / maximum(picture.width, 1)),
+                     40, 4 * plot_width);
+    }
+    /// How many times as long as they are residuals are drawn: 1, 2, 5, 10 ... 1000, so that on average they
+    /// are 20 px on paper at most.
+    static int times_for(const Real& rms, int width) {
+        const Real on_paper = rms * Real::from_ratio(plot_width, maximum(width, 1));
+        int times = 1;
+        for (const int next : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
+            if (on_paper * Real::from_int(next) <= Real::from_int(20)) times = next;
+        return times;
     }
     static void put(Status) {}  // what lies outside is not drawn
     void text(Point at, const std::string& words, Rgb888 colour = ink, int scale = 1) {
@@ -166,6 +173,7 @@ private:
                 if (coverage.count(column, row) == 0) hatch(cell(column, row));
     }
     void hatch(const Rectangle& box) {
+        hatched_ = true;
         for (int y = box.y; y < box.y + box.height; ++y)
             for (int x = box.x; x < box.x + box.width; ++x)
                 paper_(x, y) = floor_modulo(x + y, 10) < 2 ? hatching : empty_ground;
@@ -180,10 +188,10 @@ private:
             }
             const std::string across = std::to_string(picture_.width * i / Coverage::side);
             const std::string down = std::to_string(picture_.height * i / Coverage::side);
-            text({x - 3 * static_cast<int>(across.size()), corner_.y + size_.height + 5}, across);
+            text({x - 3 * static_cast<int>(across.size()), corner_.y + size_.height + 5},
+                 across + (i == Coverage::side ? " px" : ""));
             text({corner_.x - 6 - 6 * static_cast<int>(down.size()), y - 3}, down);
         }
-        text({corner_.x + size_.width + 4, corner_.y + size_.height + 5}, "px");
     }
     Rgb888 colour_of(const Real& residual) const {
         for (const Class& one : classes)
@@ -194,7 +202,7 @@ private:
     }
     void corners(const ViewFit& view, bool dots) {
         const SeenBoard& board = (*panel_.boards)[view.seen];
-        const Real factor = Real::from_int(times);
+        const Real factor = Real::from_int(times_);
         for (std::size_t i = 0; i < board.corners.size(); ++i) {
             const Real x = Real::from_fixed(board.corners[i].x);
             const Real y = Real::from_fixed(board.corners[i].y);
@@ -209,8 +217,9 @@ private:
     void legend() {
         int y = corner_.y + size_.height + 24;
         int x = corner_.x;
-        text({x, y}, "a dot is a corner of the board; its line leads to where the calibrated camera sees it, " +
-                         std::to_string(times) + " times as long");
+        text({x, y},
+             "a dot is a corner of the board; its line leads to where the calibrated camera sees it, " +
+                 std::to_string(times_) + " times as long");
         y += 20;
         std::string least = "0";
         for (const Class& one : classes) {
@@ -223,6 +232,7 @@ private:
             least = most;
         }
         y += 20;
+        if (!hatched_) return;
         hatch({corner_.x, y - 3, 24, 14});
         text({corner_.x + 32, y}, "no corner was seen here: the lens is not known there");
     }
@@ -232,6 +242,8 @@ private:
     Size picture_;
     Point corner_;
     Size size_;
+    int times_;
+    bool hatched_ = false;
 };
 
 }  // namespace detail

@@ -3,6 +3,7 @@
 // What a calibration says: for people, and as JSON.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -41,12 +42,24 @@ inline Decimal tilt_of(const ViewFit& view) {
 /// Of the board's first corner.
 inline Real distance_of(const ViewFit& view) { return millimetres(length_of(view.fit.pose.translation)); }
 
+/// Names without their folders, where that leaves them different.
+inline std::vector<std::string> short_names(const std::vector<SeenBoard>& boards) {
+    std::vector<std::string> names;
+    for (const SeenBoard& board : boards) names.push_back(board.name.substr(board.name.rfind('/') + 1));
+    std::vector<std::string> sorted = names;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return names;
+    for (std::size_t i = 0; i < boards.size(); ++i) names[i] = boards[i].name;
+    return names;
+}
+
 inline std::string table_of_views(const std::vector<SeenBoard>& boards, const std::vector<ViewFit>& views) {
     std::size_t width = 4;
-    for (const ViewFit& view : views) width = std::max(width, boards[view.seen].name.size());
+    const std::vector<std::string> names = short_names(boards);
+    for (const ViewFit& view : views) width = std::max(width, names[view.seen].size());
     std::string text = "  " + padded("view", width) + "  rms px  worst px  tilt deg  distance mm\n";
     for (const ViewFit& view : views)
-        text += "  " + padded(boards[view.seen].name, width) + right_aligned(number(view.fit.rms, 3), 8) +
+        text += "  " + padded(names[view.seen], width) + right_aligned(number(view.fit.rms, 3), 8) +
                 right_aligned(number(view.worst, 2), 10) + right_aligned(number(tilt_of(view), 0), 10) +
                 right_aligned(number(distance_of(view), 0), 13) + "\n";
     return text;
@@ -96,19 +109,19 @@ inline std::string human_pair(const PairEstimate& pair, const std::vector<SeenBo
         return with_deviation(detail::millimetres(t[axis]),
                               detail::millimetres(found.translation_deviation[axis]));
     };
-    std::string text = "both, from " + std::to_string(pair.views.size()) + " of " +
-                       std::to_string(left.size()) + " pairs\n";
+    std::string text =
+        "both, from " + std::to_string(pair.views.size()) + " of " + std::to_string(left.size()) + " pairs\n";
     if (options.intrinsics == StereoOptions::Intrinsics::estimated)
-        text += " left\n" + human_camera(found.left, found.left_deviation, left_picture, options.estimated.lens) +
+        text += " left\n" +
+                human_camera(found.left, found.left_deviation, left_picture, options.estimated.lens) +
                 " right\n" +
                 human_camera(found.right, found.right_deviation, right_picture, options.estimated.lens);
     text += "  the right camera is " + number(detail::millimetres(length_of(t)), 2) +
-            " mm from the left one, and turned by " +
-            number(degrees_of(found.right_from_left.rotation), 2) + " degrees\n";
+            " mm from the left one, and turned by " + number(degrees_of(found.right_from_left.rotation), 2) +
+            " degrees\n";
     text += "  from left to right coordinates: x " + mm(0) + ", y " + mm(1) + ", z " + mm(2) + " mm\n";
     text += "  rms " + number(found.rms, 3) + " px over the corners of both\n\n";
-    std::vector<SeenBoard> pairs = left;
-    return text + detail::table_of_views(pairs, pair.views);
+    return text + detail::table_of_views(left, pair.views);
 }
 
 /// The last line: whether to rely on it.
@@ -209,13 +222,12 @@ inline std::string json_pair(const std::vector<SeenBoard>& left_boards,
     const StereoCalibration<>& found = pair.calibration;
     const auto one = [&](const std::vector<SeenBoard>& boards, const CameraEstimate& alone,
                          const Camera<>& camera, const Camera<>& deviation) {
-        return "{" +
-               json_estimate(boards, alone, camera, held ? alone.calibration.deviation : deviation) + "}";
+        return "{" + json_estimate(boards, alone, camera, held ? alone.calibration.deviation : deviation) +
+               "}";
     };
     return "{\"rms_px\":" + json_number(found.rms) + ",\"views\":" + std::to_string(left_boards.size()) +
            ",\"views_used\":" + std::to_string(pair.views.size()) +
-           ",\"rotation\":" + detail::json_rotation(found.right_from_left.rotation) +
-           ",\"translation_mm\":" +
+           ",\"rotation\":" + detail::json_rotation(found.right_from_left.rotation) + ",\"translation_mm\":" +
            detail::json_vector(detail::in_millimetres(found.right_from_left.translation), false) +
            ",\"rotation_deviation_rad\":" + detail::json_vector(found.rotation_deviation, true) +
            ",\"translation_deviation_mm\":" +

@@ -121,9 +121,8 @@ private:
         for (const ViewFit& view : estimate_.views) coverage.add(boards_[view.seen].span());
         if (coverage.empty_cells() > 0)
             warn("empty_places", false,
-                 "the board was never in " + listed(coverage.empty_places()) +
-                     " of the picture; the lens is not known there: take views with the board at those "
-                     "places");
+                 "no corner was seen in these parts of the picture: " + listed(coverage.empty_places()) +
+                     "; the lens is not known there: take views with the board there");
         for (std::size_t i = 0; i < estimate_.views.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) {
                 const SeenBoard& a = boards_[estimate_.views[j].seen];
@@ -172,14 +171,16 @@ private:
         const std::string open = open_terms();
         if (!open.empty())
             warn("lens_uncertain", false,
-                 open + " not told by these views: the deviation is larger than the value, and moves the "
-                        "picture's corners by more than half a pixel; take views with the board in the "
-                        "corners of the picture, or give --lens fewer terms");
+                 open +
+                     " not told by these views: the deviation is larger than the value, and moves the "
+                     "picture's corners by more than half a pixel; take views with the board in the "
+                     "corners of the picture, or give --lens fewer terms");
     }
 
     /// Terms of the lens that are uncertain, and matter.
     std::string open_terms() const {
-        const Real x = std::max(camera_.cx, Real::from_int(estimate_.picture.width) - camera_.cx) / camera_.fx;
+        const Real x =
+            std::max(camera_.cx, Real::from_int(estimate_.picture.width) - camera_.cx) / camera_.fx;
         const Real y =
             std::max(camera_.cy, Real::from_int(estimate_.picture.height) - camera_.cy) / camera_.fy;
         const Real square = x * x + y * y;
@@ -218,7 +219,8 @@ inline void judge_camera(const std::vector<SeenBoard>& boards, const CameraEstim
                          const std::string& who, CalibrationWarnings& warnings) {
     for (const SeenBoard& board : boards)
         if (board.found && !board.used)
-            warnings.push_back({"same_picture", false, board.name + " is " + board.reason + "; counted once"});
+            warnings.push_back(
+                {"same_picture", false, board.name + " is " + board.reason + "; counted once"});
     detail::CameraJudge(boards, estimate, who, warnings).judge();
 }
 
@@ -245,10 +247,11 @@ inline void judge_pair(const std::vector<SeenBoard>& left, const std::vector<See
             break;
         }
     if (static_cast<int>(pair.views.size()) < detail::fewest_views)
-        warnings.push_back({"few_pairs", true,
-                            "only " + std::to_string(pair.views.size()) +
-                                (pair.views.size() == 1 ? " pair shows" : " pairs show") +
-                                " the board in both pictures; take 10 to 20 where both cameras see all of it"});
+        warnings.push_back(
+            {"few_pairs", true,
+             "only " + std::to_string(pair.views.size()) +
+                 (pair.views.size() == 1 ? " pair shows" : " pairs show") +
+                 " the board in both pictures; take 10 to 20 where both cameras see all of it"});
     const Real alone = std::max(left_alone.calibration.rms, right_alone.calibration.rms);
     const std::vector<const ViewFit*> bad = detail::bad_views(pair.views);
     for (const ViewFit* view : bad)
@@ -258,11 +261,12 @@ inline void judge_pair(const std::vector<SeenBoard>& left, const std::vector<See
                                 " px rms: were they taken at the same moment?"});
     const Real limit = std::max(alone * Real::from_int(2), Real::from_ratio(1, 2));
     if (bad.empty() && limit < pair.calibration.rms)
-        warnings.push_back({"pairs_disagree", true,
-                            "each camera fits alone to " + number(alone, 2) + " px, both together only to " +
-                                number(pair.calibration.rms, 2) +
-                                " px: pictures of a pair must be of one moment, and the cameras must not move "
-                                "against each other"});
+        warnings.push_back(
+            {"pairs_disagree", true,
+             "each camera fits alone to " + number(alone, 2) + " px, both together only to " +
+                 number(pair.calibration.rms, 2) +
+                 " px: pictures of a pair must be of one moment, and the cameras must not move "
+                 "against each other"});
 }
 
 }  // namespace fovea::apps

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fovea/base/span.hpp>
@@ -76,7 +77,7 @@ inline CameraEstimate estimate_camera(const std::vector<SeenBoard>& boards, cons
     std::vector<CalibratedView<>> fits(views.size());
     std::vector<std::uint8_t> scratch(
         static_cast<std::size_t>(calibrate_planar_scratch(static_cast<int>(views.size()))));
-    estimate.verdict = calibrate_planar<Real>(span_over<const PlanarView>(views), estimate.picture, options,
+    estimate.verdict = calibrate_planar<Real>(span_over(std::as_const(views)), estimate.picture, options,
                                               span_over(scratch), span_over(fits), estimate.calibration);
     for (std::size_t i = 0; i < views.size() && estimate.verdict.ok(); ++i) {
         estimate.views[i].fit = fits[i];
@@ -94,7 +95,9 @@ struct PairEstimate {
 };
 
 /// Corners of a board that was taken for turned by half: from the last to the first.
-inline void turn_by_half(std::vector<SubPixelPoint>& corners) { std::reverse(corners.begin(), corners.end()); }
+inline void turn_by_half(std::vector<SubPixelPoint>& corners) {
+    std::reverse(corners.begin(), corners.end());
+}
 
 /// Whether two cameras that see a board so stand to each other more upright if the second saw it turned by
 /// half about its middle.
@@ -126,10 +129,10 @@ inline PairEstimate estimate_pair(const std::vector<SeenBoard>& left_boards,
     std::vector<CalibratedView<>> fits(views.size());
     std::vector<std::uint8_t> scratch(
         static_cast<std::size_t>(calibrate_stereo_scratch(static_cast<int>(views.size()))));
-    estimate.verdict = calibrate_stereo<Real>(
-        span_over<const StereoView>(views), {left.calibration.camera, left.picture},
-        {right.calibration.camera, right.picture}, options, span_over(scratch), span_over(fits),
-        estimate.calibration);
+    estimate.verdict =
+        calibrate_stereo<Real>(span_over(std::as_const(views)), {left.calibration.camera, left.picture},
+                               {right.calibration.camera, right.picture}, options, span_over(scratch),
+                               span_over(fits), estimate.calibration);
     for (std::size_t i = 0; i < views.size() && estimate.verdict.ok(); ++i) {
         const StereoCalibration<>& found = estimate.calibration;
         estimate.views[i].fit = fits[i];

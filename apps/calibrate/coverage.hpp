@@ -33,7 +33,7 @@ public:
             for (const int count : row) empty += count == 0 ? 1 : 0;
         return empty;
     }
-    /// Where there are empty cells: "the upper left corner", "the left edge", "the middle".
+    /// Where there are empty cells: "upper left corner", "left edge", "middle".
     std::vector<std::string> empty_places() const {
         static const char* const rows[] = {"upper", "", "", "lower"};
         static const char* const columns[] = {"left", "", "", "right"};
@@ -46,8 +46,7 @@ public:
                 const std::string name = !across.empty() && !down.empty() ? down + " " + across + " corner"
                                          : across.empty() && down.empty() ? "middle"
                                                                           : down + across + " edge";
-                if (std::find(places.begin(), places.end(), "the " + name) == places.end())
-                    places.push_back("the " + name);
+                if (std::find(places.begin(), places.end(), name) == places.end()) places.push_back(name);
             }
         return places;
     }

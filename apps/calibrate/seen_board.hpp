@@ -85,8 +85,10 @@ SeenBoard see_board(Io& io, const std::string& name, const Board& board, Picture
 /// one off. 0x0 if the picture shows none of these.
 inline Size likely_board(const Picture<Gray8>& image, const Board& board) {
     const Size meant = board.size;
-    const Size others[] = {{meant.width - 1, meant.height - 1}, {meant.width + 1, meant.height + 1},
-                           {meant.width - 1, meant.height},     {meant.width, meant.height - 1}};
+    const Size others[] = {{meant.width - 1, meant.height - 1},
+                           {meant.width + 1, meant.height + 1},
+                           {meant.width - 1, meant.height},
+                           {meant.width, meant.height - 1}};
     for (const Size size : others) {
         if (std::min(size.width, size.height) < 3 || std::max(size.width, size.height) > most_board_corners)
             continue;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <calibrate/calibrate_command.hpp>
 #include <common/arguments.hpp>
 #include <common/io.hpp>
 #include <gauge/compile_command.hpp>
@@ -42,6 +43,7 @@ std::vector<Entry<Io>> commands() {
             {teach_help(), teach_command<Io>},
             {compile_help(), compile_command<Io>},
             {read_help(), read_command<Io>},
+            {calibrate_help(), calibrate_command<Io>},
             {make_code_help(), make_code_command<Io>},
             {make_part_help(), make_part_command<Io>},
             {op_help(), op_command<Io>},
