@@ -10,6 +10,7 @@
 #include <fovea/base/list.hpp>
 #include <fovea/base/span.hpp>
 #include <fovea/base/status.hpp>
+#include <fovea/camera/board_check.hpp>
 #include <fovea/camera/board_lattice.hpp>
 #include <fovea/camera/board_window.hpp>
 #include <fovea/camera/saddle_field.hpp>
@@ -64,6 +65,7 @@ inline namespace FOVEA_ISA {
 namespace kernels {
 
 using detail::BoardFrame;
+using detail::BoardPlaces;
 using detail::BoardLattice;
 using detail::BoardVector;
 using detail::LatticePlace;
@@ -97,7 +99,7 @@ public:
         }
         return halves + size.area() + arena_bytes<SaddleCandidate>(options.candidates) +
                arena_bytes<std::int32_t>(3 * std::int64_t{size.width}) + BoardLattice::scratch(reach(board)) +
-               gaussian_5x5_scratch(size);
+               arena_bytes<SubPixelPoint>(board.area()) +               gaussian_5x5_scratch(size);
     }
     CheckerboardFinder(ImageView<const Gray8> src, Size board, const CheckerboardOptions& options,
                        Span<std::uint8_t> bytes)
@@ -108,6 +110,7 @@ public:
           candidates_(arena_.take<SaddleCandidate>(options.candidates)),
           rows_(arena_.take<std::int32_t>(3 * std::int64_t{src.width()})),
           lattice_(reach(board), arena_),
+          refined_(arena_.take<SubPixelPoint>(board.area())),
           smooth_(arena_.take_unset<std::uint8_t>(src.size().area())) {
         levels_[0] = src;
         count_ = board_levels(src.size(), board);
@@ -143,9 +146,12 @@ private:
         field_.gather(rows_, list);
         all_ = list.span();
         if (found < board_.area() / 4) return false;
+        budget_ = 8 * levels_[k].size().area() + 65536;
         for (SaddleCandidate& seed : all_) {
+            if (budget_ <= 0) return false;
             if (seed.used) continue;
             seed.used = true;
+            budget_ -= found;
             BoardVector u;
             BoardVector v;
             if (!step_from(seed, seed.a, seed.b, u) || !step_from(seed, seed.b, seed.a, v)) continue;
@@ -191,6 +197,8 @@ private:
             const BoardVector v_here = lattice_.step(from, 1);
             const int height = minimum(u_here.length(), v_here.length());
             const int radius = clamp(height * 3 / 10 / 256, 1, 64);
+            budget_ -= (2 * radius + 1) * (2 * radius + 1);
+            if (budget_ <= 0) return false;
             const Result<BoardVector> place = field_.saddle_near(
                 expected, radius, saddle_way(u_here), saddle_way(v_here), sign_of(at));
             if (!place || !field_.crosses(*place, u_here, v_here, sign_of(at)) || !joins(at, *place))
@@ -251,15 +259,20 @@ private:
             if (size != board_) continue;
             const BoardFrame frame = frame_of(window_, quarters);
             const BoardVector row = first_row(lattice_, frame, board_.width);
-            const bool bright = sign_of(frame.start) == (quarters % 2 == 0 ? 1 : -1);
-            const bool better = !any || (best_dark != !bright ? !bright : runs_right_of(row, best_row));
+            const bool dark = !is_bright(frame);
+            const bool better = !any || (best_dark != dark ? dark : runs_right_of(row, best_row));
             if (!better) continue;
             any = true;
             best = frame;
-            best_dark = !bright;
+            best_dark = dark;
             best_row = row;
         }
         return best;
+    }
+
+    /// Whether the square between the first corner, its row and its column is; and so is the one outside.
+    static bool is_bright(const BoardFrame& frame) {
+        return sign_of(frame.start) * (frame.along.i + frame.along.j) * (frame.down.i + frame.down.j) == 1;
     }
 
     Status finish(int k, Span<SubPixelPoint> corners) {
@@ -271,38 +284,44 @@ private:
             lattice_.move(at, {(p.x << k) + shift, (p.y << k) + shift});
         }
         const BoardFrame frame = order();
-        // Refined from places that all are of the level; then they move together.
+        BoardPlaces places(refined_, board_);
         for (int row = 0; row < board_.height; ++row)
             for (int column = 0; column < board_.width; ++column) {
                 const LatticePlace at = frame.at(column, row);
-                const int radius = radius_at(at);
-                const Result<SubPixelPoint> point = refine_saddle_point(
-                    src_, clamped(lattice_.place(at)),
-                    SubPixel::from_raw(clamp(radius, min_saddle_radius.raw(), 32 * 256)));
+                const Result<SubPixelPoint> point =
+                    refine_saddle_point(src_, clamped(lattice_.place(at)), window_at(at));
                 if (!point) return point.status();
-                refined(row, column) = *point;
+                places.set(column, row, *point);
             }
-        for (int row = 0; row < board_.height; ++row)
-            for (int column = 0; column < board_.width; ++column)
-                corners[std::ptrdiff_t{row} * board_.width + column] = refined(row, column);
+        const bool bright = is_bright(frame);
+        if (!is_even(places) || !is_checkered(src_, places, bright) ||
+            is_part(src_, places, bright))
+            return Status::not_found;
+        for (std::ptrdiff_t n = 0; n < refined_.size(); ++n) corners[n] = refined_[n];
         return Status::ok;
     }
     SubPixelPoint clamped(BoardVector p) const {
         return BoardVector{clamp(p.x, 0, (src_.width() - 1) * 256), clamp(p.y, 0, (src_.height() - 1) * 256)}
             .point();
     }
-    /// Of the disc around a corner that other edges do not reach, in 1/256 px.
-    int radius_at(LatticePlace at) const {
+    /// Almost half of the squares around a corner: outer ones may be cut off there. More of small ones, and no
+    /// more than 32 px of large ones.
+    SaddleWindow window_at(LatticePlace at) const {
         const BoardVector u = lattice_.step(at, 0);
         const BoardVector v = lattice_.step(at, 1);
         const std::int64_t area = cross(u, v);
         const int longer = maximum(maximum(u.length(), v.length()), 1);
-        return static_cast<int>((area < 0 ? -area : area) / longer * fovea_radius_share / 100);
+        const std::int64_t height = maximum<std::int64_t>((area < 0 ? -area : area) / longer, 1);
+        // In 1/256 of the ways.
+        const std::int64_t most = minimum<std::int64_t>(200, 32 * 65536 / longer);
+        const std::int64_t part = minimum(maximum<std::int64_t>(115, 640 * 256 / height), most);
+        const auto share = [&](BoardVector way) {
+            return BoardVector{static_cast<std::int32_t>(way.x * part / 256),
+                               static_cast<std::int32_t>(way.y * part / 256)}
+                .point();
+        };
+        return {share(u), share(v)};
     }
-    SubPixelPoint& refined(int row, int column) {
-        return reinterpret_cast<SubPixelPoint*>(smooth_.data())[row * board_.width + column];
-    }
-
     ImageView<const Gray8> src_;
     Size board_;
     CheckerboardOptions options_;
@@ -310,15 +329,14 @@ private:
     Span<SaddleCandidate> candidates_;
     Span<std::int32_t> rows_;
     BoardLattice lattice_;
+    Span<SubPixelPoint> refined_;
     Span<std::uint8_t> smooth_;
     ImageView<const Gray8> levels_[max_board_levels];
     int count_ = 1;
     SaddleField field_;
+    std::int64_t budget_ = 0;  ///< pixels and candidates that may be looked at yet
     Span<SaddleCandidate> all_;
     LatticeWindow window_;
-
-public:
-    static inline int fovea_radius_share = 70;
 };
 
 }  // namespace kernels

@@ -21,6 +21,12 @@ namespace fovea {
 inline constexpr SubPixel min_saddle_radius = SubPixel::from_int(2);
 inline constexpr SubPixel max_saddle_radius = SubPixel::from_int(64);
 
+/// The ellipse that a circle becomes on a board that is seen askew: all au + bv with a^2 + b^2 up to 1.
+struct SaddleWindow {
+    SubPixelPoint u;  ///< along one edge, as long as the window reaches
+    SubPixelPoint v;  ///< along the other
+};
+
 /// The place around which the edges near start run: each gradient stands across the way from the place to its
 /// pixel. Least squares over a disc, moved until it stands on the place itself.
 ///
@@ -39,6 +45,14 @@ inline constexpr SubPixel max_saddle_radius = SubPixel::from_int(64);
 ///           that nothing jumps where pixels enter
 inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
                                                  SubPixel radius);
+
+/// The same in a window that follows the board: more pixels where squares are seen askew.
+///
+/// Shapes    u and v as long as radii may be; by the way to the other, 1 px or more wide
+/// Errors    also bad_argument for ways that are too long, short, or almost parallel. Half the shorter one
+///           is how far the place may be from start
+inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
+                                                 const SaddleWindow& window);
 
 // ---- Implementation ---------------------------------------------------------------
 
@@ -85,21 +99,48 @@ private:
     int steps_[5] = {};
 };
 
-inline SaddleSums saddle_sums(ImageView<const Gray8> src, FinePoint centre, std::int64_t radius) {
+/// A SaddleWindow as it is asked for each pixel.
+class SaddleWeights {
+public:
+    explicit SaddleWeights(const SaddleWindow& w)
+        : half_width_(static_cast<std::int32_t>(hypotenuse(w.u.x.raw(), w.v.x.raw()))),
+          half_height_(static_cast<std::int32_t>(hypotenuse(w.u.y.raw(), w.v.y.raw()))) {
+        const std::int64_t ux = w.u.x.raw(), uy = w.u.y.raw(), vx = w.v.x.raw(), vy = w.v.y.raw();
+        const Real area = Real::from_int(ux * vy - uy * vx);
+        const Real share = Real::from_int(1, 46) / (area * area);
+        xx_ = (Real::from_int(uy * uy + vy * vy) * share).rounded(0);
+        xy_ = (Real::from_int(-2 * (ux * uy + vx * vy)) * share).rounded(0);
+        yy_ = (Real::from_int(ux * ux + vx * vx) * share).rounded(0);
+    }
+    /// In 1/256 px.
+    std::int32_t half_width() const { return half_width_; }
+    std::int32_t half_height() const { return half_height_; }
+    /// 2^10 (1 - a^2 - b^2) at a distance in 1/2048 px from the middle, below 0 outside of the window. Distances
+    /// are below 2^18 and factors at most 2^30.
+    std::int64_t part(std::int64_t dx, std::int64_t dy) const {
+        const std::int64_t sum = ((dx * dx) >> 7) * xx_ + ((dx * dy) >> 7) * xy_ + ((dy * dy) >> 7) * yy_;
+        return 1024 - (sum >> 35);
+    }
+
+private:
+    std::int32_t half_width_;
+    std::int32_t half_height_;
+    std::int64_t xx_ = 0, xy_ = 0, yy_ = 0;
+};
+
+inline SaddleSums saddle_sums(ImageView<const Gray8> src, FinePoint centre, const SaddleWeights& weights) {
     SaddleSums sums;
-    const std::int64_t square = radius * radius;
-    const std::int64_t share = (std::int64_t{1} << 60) / square;
-    const auto first = [radius](FinePixel c) {
-        return static_cast<int>(maximum<std::int64_t>((std::int64_t{c.raw()} - (radius << 5)) >> 16, 2));
+    const auto first = [](FinePixel c, std::int32_t half) {
+        return static_cast<int>(maximum<std::int64_t>((std::int64_t{c.raw()} - half * 256) >> 16, 2));
     };
-    const auto last = [radius](FinePixel c, int side) {
+    const auto last = [](FinePixel c, std::int32_t half, int side) {
         return static_cast<int>(
-            minimum<std::int64_t>(((std::int64_t{c.raw()} + (radius << 5)) >> 16) + 1, side - 3));
+            minimum<std::int64_t>(((std::int64_t{c.raw()} + half * 256) >> 16) + 1, side - 3));
     };
-    const int left = first(centre.x);
-    const int right = last(centre.x, src.width());
-    const int bottom = last(centre.y, src.height());
-    for (int y = first(centre.y); y <= bottom && left <= right; ++y) {
+    const int left = first(centre.x, weights.half_width());
+    const int right = last(centre.x, weights.half_width(), src.width());
+    const int bottom = last(centre.y, weights.half_height(), src.height());
+    for (int y = first(centre.y, weights.half_height()); y <= bottom && left <= right; ++y) {
         SaddleGradients gradients(src, y, left);
         const std::int64_t dy = round_shift((std::int64_t{y} << 16) - centre.y.raw(), 5);
         for (int x = left; x <= right; ++x) {
@@ -107,10 +148,8 @@ inline SaddleSums saddle_sums(ImageView<const Gray8> src, FinePoint centre, std:
             int gy = 0;
             gradients.next(gx, gy);
             const std::int64_t dx = round_shift((std::int64_t{x} << 16) - centre.x.raw(), 5);
-            const std::int64_t inside = square - dx * dx - dy * dy;
-            if (inside <= 0 || (gx | gy) == 0) continue;
-            // 1 - (d / r)^2 in 2^-10: inside is at most 2^34, share at least 2^26.
-            const std::int64_t part = ((inside >> 6) * (share >> 14)) >> 30;
+            const std::int64_t part = weights.part(dx, dy);
+            if (part <= 0 || (gx | gy) == 0) continue;
             const std::int64_t weight = (part * part) >> 10;
             const std::int64_t across = gx * dx + gy * dy;
             sums.xx += weight * (gx * gx);
@@ -123,21 +162,40 @@ inline SaddleSums saddle_sums(ImageView<const Gray8> src, FinePoint centre, std:
     return sums;
 }
 
+/// Whether radii are in range, and the window is not too thin.
+constexpr bool is_valid(const SaddleWindow& w) {
+    const auto length = [](SubPixelPoint p) { return hypotenuse(p.x.raw(), p.y.raw()); };
+    const std::int64_t u = length(w.u);
+    const std::int64_t v = length(w.v);
+    if (minimum(u, v) < min_saddle_radius.raw() || maximum(u, v) > max_saddle_radius.raw()) return false;
+    const std::int64_t area =
+        std::int64_t{w.u.x.raw()} * w.v.y.raw() - std::int64_t{w.u.y.raw()} * w.v.x.raw();
+    return (area < 0 ? -area : area) >= 256 * maximum(u, v);
+}
+
 }  // namespace detail
 
 inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
                                                  SubPixel radius) {
+    return refine_saddle_point(src, start, {{radius, {}}, {{}, radius}});
+}
+
+inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
+                                                 const SaddleWindow& window) {
     if (src.empty()) return Status::empty_image;
-    if (radius < min_saddle_radius || radius > max_saddle_radius) return Status::bad_argument;
+    if (!detail::is_valid(window)) return Status::bad_argument;
     const auto outside = [](SubPixel c, int side) { return c.raw() < 0 || c.raw() > (side - 1) * 256; };
     if (outside(start.x, src.width()) || outside(start.y, src.height())) return Status::out_of_range;
 
     const FinePoint first{start.x.convert<FinePixel>(), start.y.convert<FinePixel>()};
     FinePoint place = first;
-    const std::int64_t fine_radius = std::int64_t{radius.raw()} << 3;
-    const std::int64_t reach = std::int64_t{radius.raw()} << 7;
+    const detail::SaddleWeights weights(window);
+    // Half of the shorter way, in 1/65536 px.
+    const std::int64_t reach = minimum(hypotenuse(window.u.x.raw(), window.u.y.raw()),
+                                       hypotenuse(window.v.x.raw(), window.v.y.raw()))
+                               << 7;
     for (int i = 0; i < 20; ++i) {
-        const detail::SaddleSums sums = detail::saddle_sums(src, place, fine_radius);
+        const detail::SaddleSums sums = detail::saddle_sums(src, place, weights);
         const Real xx = Real::from_int(sums.xx);
         const Real xy = Real::from_int(sums.xy);
         const Real yy = Real::from_int(sums.yy);
