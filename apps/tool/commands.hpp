@@ -7,6 +7,9 @@
 #include <vector>
 
 #include <calibrate/calibrate_command.hpp>
+#include <camera/camera_command.hpp>
+#include <camera/rectify_command.hpp>
+#include <camera/undistort_command.hpp>
 #include <common/arguments.hpp>
 #include <common/io.hpp>
 #include <gauge/compile_command.hpp>
@@ -43,9 +46,12 @@ std::vector<Entry<Io>> commands() {
             {teach_help(), teach_command<Io>},
             {compile_help(), compile_command<Io>},
             {read_help(), read_command<Io>},
-            {calibrate_help(), calibrate_command<Io>},
             {make_code_help(), make_code_command<Io>},
             {make_part_help(), make_part_command<Io>},
+            {calibrate_help(), calibrate_command<Io>},
+            {undistort_help(), undistort_command<Io>},
+            {rectify_help(), rectify_command<Io>},
+            {camera_help(), camera_command<Io>},
             {op_help(), op_command<Io>},
             {sheet_help(), sheet_command<Io>},
             {ops_help(), ops_command<Io>},

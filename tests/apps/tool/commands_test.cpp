@@ -30,8 +30,8 @@ protected:
     TestIo io;
 };
 
-const Words names = {"gauge", "teach", "compile", "make-part", "op",
-                     "ops",   "info",  "compare", "probe",     "doctor"};
+const Words names = {"gauge",  "teach", "compile", "make-part", "calibrate", "undistort", "rectify",
+                     "camera", "op",    "ops",     "info",      "compare",   "probe",     "doctor"};
 
 TEST_F(Tool, ListsItsCommandsWhenAskedForHelp) {
     for (const char* word : {"--help", "-h", "help"}) {
