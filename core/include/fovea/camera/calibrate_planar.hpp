@@ -46,7 +46,7 @@ struct PlanarCalibration {
 template <class Scalar = Real>
 constexpr std::int64_t calibrate_planar_scratch(int views) {
     const std::int64_t scalars = block_equations_scratch<6>(camera_terms, views) + camera_terms;
-    return scalars * static_cast<int>(sizeof(Scalar)) +
+    return scalars * static_cast<int>(sizeof(Scalar)) + block_equations_words<6>(camera_terms) * 8 + 8 +
            std::int64_t{views} * static_cast<int>(sizeof(Pose<Scalar>)) +
            2 * static_cast<int>(alignof(Scalar));
 }
@@ -83,12 +83,12 @@ template <class Scalar>
 class PlanarSystem {
 public:
     PlanarSystem(Span<const PlanarView> views, const IntrinsicsOptions& options, Span<Pose<Scalar>> poses,
-                 Span<Scalar> row, Span<Scalar> equations)
+                 Span<Scalar> row, Span<Scalar> equations, Span<std::int64_t> words)
         : views_(views),
           terms_(options),
           poses_(poses),
           row_(row.first(terms_.count())),
-          equations_(terms_.count(), static_cast<int>(views.size()), equations) {}
+          equations_(terms_.count(), static_cast<int>(views.size()), equations, words) {}
 
     /// The state to start from.
     CalibrationVerdict start(Size picture);
@@ -166,6 +166,7 @@ Status PlanarSystem<Scalar>::linearise() {
             }
         }
     }
+    equations_.finish();
     return Status::ok;
 }
 
@@ -216,16 +217,15 @@ CalibrationVerdict calibrate_planar(Span<const PlanarView> views, Size picture,
     Arena arena(scratch);
     const auto poses = arena.take<Pose<Scalar>>(count);
     const auto row = arena.take<Scalar>(camera_terms);
+    const auto words = arena.take<std::int64_t>(block_equations_words<6>(terms.count()));
     const auto room = arena.take<Scalar>(block_equations_scratch<6>(terms.count(), count));
-    detail::PlanarSystem<Scalar> system(views, options, poses, row, room);
+    detail::PlanarSystem<Scalar> system(views, options, poses, row, room, words);
     verdict = system.start(picture);
     if (!verdict.ok()) return verdict;
 
     PlanarCalibration<Scalar> result;
-    Status status = detail::descend(system, LevenbergMarquardtOptions(), result.refinement);
-    Scalar gain = scalar_of<Scalar>(0);
-    if (status == Status::ok) status = system.solve(detail::undamped, gain);
-    if (status != Status::ok) return {CalibrationProblem::parallel_views, -1};
+    const CalibrationProblem problem = detail::refine<Scalar>(system, terms, poses, result.refinement);
+    if (problem != CalibrationProblem::none) return {problem, -1};
     const std::int64_t points = system.points();
     const std::int64_t spare = 2 * points - terms.count() - std::int64_t{6} * count;
     const Scalar variance = result.refinement.cost / scalar_of<Scalar>(spare);
@@ -235,8 +235,7 @@ CalibrationVerdict calibrate_planar(Span<const PlanarView> views, Size picture,
     result.deviation =
         terms.deviations<Scalar>([&](int i) { return equations.shared_variance(i) * variance; });
     result.rms = square_root(result.refinement.cost / scalar_of<Scalar>(points));
-    if (!detail::FreeTerms::determined(result.camera, result.deviation) ||
-        (terms.of_pinhole() > 2 && detail::all_parallel<Scalar>(poses)))
+    if (!detail::FreeTerms::determined(result.camera, result.deviation))
         return {CalibrationProblem::parallel_views, -1};
     if (!result.refinement.converged) return {CalibrationProblem::no_convergence, -1};
 

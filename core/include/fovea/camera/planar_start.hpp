@@ -12,6 +12,7 @@
 #include <fovea/camera/camera.hpp>
 #include <fovea/camera/pose.hpp>
 #include <fovea/image/geometry.hpp>
+#include <fovea/linear/levenberg_marquardt.hpp>
 #include <fovea/linear/matrix.hpp>
 #include <fovea/match/fit_homography.hpp>
 #include <fovea/match/point_pair.hpp>
@@ -183,6 +184,31 @@ constexpr bool all_parallel(Span<const Pose<Scalar>> poses) {
         if (scalar_of<Scalar>(1, -8) < dot(across, across)) return false;
     }
     return true;
+}
+
+/// The way down of a calibration, and the last equations solved without damping. Where boards that are
+/// parallel leave the camera open the way has no end: that is looked for early.
+template <class Scalar, class System>
+constexpr CalibrationProblem refine(System& system, const FreeTerms& terms, Span<const Pose<Scalar>> poses,
+                                    Refinement<Scalar>& refinement) {
+    const bool tilted = terms.of_pinhole() > 2;
+    LevenbergMarquardtOptions options;
+    const int most = options.most_linearisations;
+    options.most_linearisations = 25;
+    Status status = descend(system, options, refinement);
+    if (status == Status::ok && !refinement.converged) {
+        if (tilted && all_parallel(poses)) return CalibrationProblem::parallel_views;
+        const Refinement<Scalar> before = refinement;
+        options.most_linearisations = most - before.linearisations;
+        status = descend(system, options, refinement);
+        refinement.linearisations += before.linearisations;
+        refinement.costs += before.costs;
+    }
+    Scalar gain = scalar_of<Scalar>(0);
+    if (status == Status::ok) status = system.solve(undamped, gain);
+    // What leaves an unknown open, or leads behind the camera.
+    const bool open = status != Status::ok || (tilted && all_parallel(poses));
+    return open ? CalibrationProblem::parallel_views : CalibrationProblem::none;
 }
 
 }  // namespace detail

@@ -3,7 +3,9 @@
 // Normal equations of many views: unknowns that all of them share, and some that each has for itself.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <fovea/base/assert.hpp>
 #include <fovea/base/span.hpp>
@@ -11,9 +13,16 @@
 #include <fovea/linear/cholesky.hpp>
 #include <fovea/linear/levenberg_marquardt.hpp>
 #include <fovea/linear/matrix.hpp>
+#include <fovea/number/int128.hpp>
+#include <fovea/number/real.hpp>
 #include <fovea/number/scalar.hpp>
+#include <fovea/number/wide.hpp>
 
 namespace fovea {
+
+namespace detail {
+inline constexpr int residuals_together = 16;
+}  // namespace detail
 
 // ---- Interface --------------------------------------------------------------------
 
@@ -22,14 +31,15 @@ namespace fovea {
 /// equations one by one, so that memory and time grow with the number of views, and not with its square or
 /// cube.
 ///
-/// Scratch   block_equations_scratch<Own>(shared, views) scalars
-/// Rounding  sums in the order in which residuals are added
+/// Scratch   block_equations_scratch<Own>(shared, views) scalars, block_equations_words<Own>(shared) words
+/// Rounding  sums in the order in which residuals are added. Of Real, the sums over 16 residuals of a view are
+///           exact, of derivatives that are rounded to 2^-61 of the largest by the same unknown among them
 /// Source    Schur complement; Triggs et al., "Bundle Adjustment - A Modern Synthesis", 1999, section 6.1
 template <int Own, class Scalar = Real>
 class BlockEquations {
 public:
     /// shared 0 or more, views 1 or more; the scratch is large enough.
-    constexpr BlockEquations(int shared, int views, Span<Scalar> scratch);
+    constexpr BlockEquations(int shared, int views, Span<Scalar> scratch, Span<std::int64_t> words);
 
     constexpr int shared() const { return shared_; }
     constexpr int views() const { return views_; }
@@ -41,6 +51,8 @@ public:
     /// are 0 take no time.
     constexpr void add(int view, Span<const Scalar> by_shared, const Vector<Own, Scalar>& by_own,
                        Scalar residual);
+    /// After the last residual, before anything is asked.
+    constexpr void finish();
 
     /// The step of Gauss and Newton, with the diagonal raised by 2^damping of itself, or detail::undamped;
     /// gain is by how much it would lower the cost of a linear problem.
@@ -58,6 +70,15 @@ public:
 
 private:
     static constexpr int triangle = Own * (Own + 1) / 2;
+    /// Sums of products of whole numbers below 2^61 over so many residuals stay below 2^127.
+    static constexpr int together = detail::residuals_together;
+    static constexpr bool exact = std::is_same_v<Scalar, Real>;
+
+    /// Where the sum of products of two columns of a residual stands; columns are the shared unknowns, the
+    /// view's own, and the residual itself.
+    constexpr Scalar& sum_of(int view, int column, int other);
+    constexpr void add_products(int view, Span<const Scalar> by_shared, const Vector<Own, Scalar>& by_own,
+                                Scalar residual);
 
     /// Elements of a view: the upper triangle of its matrix, the products with what is shared, gradient, step.
     constexpr Span<Scalar> part(int view, int from, int count) const {
@@ -88,21 +109,63 @@ private:
     Span<Scalar> rest_;
     Span<Scalar> solutions_;
     Span<Scalar> parts_;
+    /// Residuals that wait for their sums, and what of them is not 0, as whole numbers.
+    Span<Scalar> rows_;
+    Span<std::int64_t> words_;
+    int waiting_ = 0;
+    int waiting_view_ = 0;
 };
 
 /// Scalars that a BlockEquations needs.
 template <int Own>
 constexpr std::int64_t block_equations_scratch(int shared, int views) {
     const std::int64_t of_a_view = Own * (Own + 1) / 2 + Own * (shared + 2);
-    return std::int64_t{2} * shared * (shared + 1) + Own * (shared + 1) + of_a_view * views;
+    return std::int64_t{2} * shared * (shared + 1) + Own * (shared + 1) +
+           detail::residuals_together * (shared + Own + 1) + of_a_view * views;
+}
+template <int Own>
+constexpr std::int64_t block_equations_words(int shared) {
+    return std::int64_t{detail::residuals_together + 2} * (shared + Own + 1);
 }
 
 // ---- Implementation ---------------------------------------------------------------
 
+namespace detail {
+
+/// An exact sum of products of whole numbers, below 2^127 in magnitude.
+class ProductSum {
+public:
+    constexpr void add(std::int64_t a, std::int64_t b) {
+        const auto x = static_cast<std::uint64_t>(a);
+        const auto y = static_cast<std::uint64_t>(b);
+        const Wide product = multiply_wide(x, y);
+        // Of two's complements: 2^64 too much for every sign.
+        high_ += product.high - (a < 0 ? y : 0) - (b < 0 ? x : 0);
+        low_ += product.low;
+        high_ += low_ < product.low ? 1 : 0;
+    }
+    /// Times 2^exponent, cut after 64 digits.
+    constexpr Real value(int exponent) const {
+        const auto high = static_cast<std::int64_t>(high_);
+        const auto half = static_cast<std::int64_t>(low_ >> 1);
+        const Int128 all =
+            (Int128(high) << 64) + (Int128(half) << 1) + Int128(static_cast<std::int64_t>(low_ & 1));
+        return Real::from_int(all, exponent);
+    }
+
+private:
+    std::uint64_t high_ = 0;
+    std::uint64_t low_ = 0;
+};
+
+}  // namespace detail
+
 template <int Own, class Scalar>
-constexpr BlockEquations<Own, Scalar>::BlockEquations(int shared, int views, Span<Scalar> scratch)
-    : shared_(shared), views_(views) {
+constexpr BlockEquations<Own, Scalar>::BlockEquations(int shared, int views, Span<Scalar> scratch,
+                                                      Span<std::int64_t> words)
+    : shared_(shared), views_(views), words_(words) {
     FOVEA_ASSERT(scratch.size() >= block_equations_scratch<Own>(shared, views));
+    FOVEA_ASSERT(words.size() >= block_equations_words<Own>(shared));
     const auto take = [&](int count) {
         const Span<Scalar> taken = scratch.first(count);
         scratch = scratch.from(count);
@@ -113,6 +176,7 @@ constexpr BlockEquations<Own, Scalar>::BlockEquations(int shared, int views, Spa
     gradient_ = take(shared);
     shared_step_ = take(shared);
     solutions_ = take(Own * (shared + 1));
+    rows_ = take(together * (shared + Own + 1));
     parts_ = scratch;
 }
 
@@ -120,6 +184,7 @@ template <int Own, class Scalar>
 constexpr void BlockEquations<Own, Scalar>::clear() {
     const Scalar zero = scalar_of<Scalar>(0);
     cost_ = zero;
+    waiting_ = 0;
     for (Scalar& value : matrix_) value = zero;
     for (Scalar& value : gradient_) value = zero;
     for (int view = 0; view < views_; ++view)
@@ -129,22 +194,84 @@ constexpr void BlockEquations<Own, Scalar>::clear() {
 template <int Own, class Scalar>
 constexpr void BlockEquations<Own, Scalar>::add(int view, Span<const Scalar> by_shared,
                                                 const Vector<Own, Scalar>& by_own, Scalar residual) {
+    if constexpr (!exact) {
+        add_products(view, by_shared, by_own, residual);
+    } else {
+        if (waiting_ == together || view != waiting_view_) finish();
+        waiting_view_ = view;
+        Scalar* row = rows_.data() + (shared_ + Own + 1) * waiting_++;
+        for (int i = 0; i < shared_; ++i) *row++ = by_shared[i];
+        for (int i = 0; i < Own; ++i) *row++ = by_own[i];
+        *row = residual;
+    }
+}
+
+template <int Own, class Scalar>
+constexpr void BlockEquations<Own, Scalar>::add_products(int view, Span<const Scalar> by_shared,
+                                                         const Vector<Own, Scalar>& by_own, Scalar residual) {
     const Scalar zero = scalar_of<Scalar>(0);
     cost_ = cost_ + residual * residual;
     for (int i = 0; i < shared_; ++i) {
         const Scalar a = by_shared[i];
         if (a == zero) continue;
-        for (int k = i; k < shared_; ++k)
-            if (by_shared[k] != zero) matrix(i, k) = matrix(i, k) + a * by_shared[k];
+        for (int k = i; k < shared_; ++k) matrix(i, k) = matrix(i, k) + a * by_shared[k];
         gradient_[i] = gradient_[i] + a * residual;
-        Scalar* sums = products(view, i).data();
-        for (int k = 0; k < Own; ++k) sums[k] = sums[k] + a * by_own[k];
+        for (int k = 0; k < Own; ++k) products(view, i)[k] = products(view, i)[k] + a * by_own[k];
     }
     Scalar* sums = own_matrix(view).data();
-    Scalar* gradient = own_gradient(view).data();
     for (int i = 0; i < Own; ++i) {
         for (int k = i; k < Own; ++k, ++sums) *sums = *sums + by_own[i] * by_own[k];
-        gradient[i] = gradient[i] + by_own[i] * residual;
+        own_gradient(view)[i] = own_gradient(view)[i] + by_own[i] * residual;
+    }
+}
+
+template <int Own, class Scalar>
+constexpr Scalar& BlockEquations<Own, Scalar>::sum_of(int view, int column, int other) {
+    const int last = shared_ + Own;
+    if (column == last) return cost_;
+    if (column < shared_) {
+        if (other < shared_) return matrix(column, other);
+        return other == last ? gradient_[column] : products(view, column)[other - shared_];
+    }
+    const int i = column - shared_;
+    if (other == last) return own_gradient(view)[i];
+    return own_matrix(view)[i * Own - i * (i + 1) / 2 + other - shared_];
+}
+
+template <int Own, class Scalar>
+constexpr void BlockEquations<Own, Scalar>::finish() {
+    if constexpr (exact) {
+        const int columns = shared_ + Own + 1;
+        // Per column: its numbers, which of them are not 0, and the exponent of their unit.
+        const auto numbers = [&](int c) { return words_.data() + (together + 2) * c; };
+        for (int c = 0; c < columns; ++c) {
+            std::int64_t* const number = numbers(c);
+            std::int64_t used = 0;
+            int most = 0;
+            for (int r = 0; r < waiting_; ++r) {
+                const Real& value = rows_[r * columns + c];
+                if (value.zero()) continue;
+                if (used == 0 || value.exponent() > most) most = value.exponent();
+                used |= std::int64_t{1} << r;
+            }
+            for (int r = 0; r < waiting_; ++r) number[r] = rows_[r * columns + c].rounded(60 - most);
+            number[together] = used;
+            number[together + 1] = most - 60;
+        }
+        for (int c = 0; c < columns; ++c)
+            for (int d = c; d < columns; ++d) {
+                const std::int64_t* const first = numbers(c);
+                const std::int64_t* const second = numbers(d);
+                auto used = static_cast<std::uint32_t>(first[together] & second[together]);
+                if (used == 0) continue;
+                detail::ProductSum sum;
+                for (int r = 0; used != 0; ++r, used >>= 1)
+                    if ((used & 1) != 0) sum.add(first[r], second[r]);
+                const auto exponent = static_cast<int>(first[together + 1] + second[together + 1]);
+                Scalar& total = sum_of(waiting_view_, c, d);
+                total = total + sum.value(exponent);
+            }
+        waiting_ = 0;
     }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 
 #include <fovea/base/arena.hpp>
 #include <fovea/base/span.hpp>
@@ -62,7 +63,7 @@ template <class Scalar = Real>
 constexpr std::int64_t calibrate_stereo_scratch(int views) {
     const int shared = 6 + 2 * camera_terms;
     const std::int64_t scalars = block_equations_scratch<6>(shared, views) + shared;
-    return scalars * static_cast<int>(sizeof(Scalar)) +
+    return scalars * static_cast<int>(sizeof(Scalar)) + block_equations_words<6>(shared) * 8 + 8 +
            std::int64_t{2} * views * static_cast<int>(sizeof(Pose<Scalar>)) +
            3 * static_cast<int>(alignof(Scalar));
 }
@@ -102,12 +103,12 @@ template <class Scalar>
 class StereoSystem {
 public:
     StereoSystem(Span<const StereoView> views, const FreeTerms& terms, Span<Pose<Scalar>> poses,
-                 Span<Scalar> row, Span<Scalar> equations)
+                 Span<Scalar> row, Span<Scalar> equations, Span<std::int64_t> words)
         : views_(views),
           terms_(terms),
           poses_(poses),
           row_(row.first(6 + 2 * terms.count())),
-          equations_(6 + 2 * terms.count(), static_cast<int>(views.size()), equations) {}
+          equations_(6 + 2 * terms.count(), static_cast<int>(views.size()), equations, words) {}
 
     CalibrationVerdict start(const Camera<Scalar>& left, const Camera<Scalar>& right,
                              Span<Pose<Scalar>> others) {
@@ -204,6 +205,7 @@ Status StereoSystem<Scalar>::linearise() {
             if (status == Status::ok) status = add_right(view, i, arm);
             if (status != Status::ok) return status;
         }
+    equations_.finish();
     return Status::ok;
 }
 
@@ -275,16 +277,15 @@ CalibrationVerdict calibrate_stereo(Span<const StereoView> views, const Calibrat
     const auto poses = arena.take<Pose<Scalar>>(count);
     const auto others = arena.take<Pose<Scalar>>(count);
     const auto row = arena.take<Scalar>(shared);
+    const auto words = arena.take<std::int64_t>(block_equations_words<6>(shared));
     const auto room = arena.take<Scalar>(block_equations_scratch<6>(shared, count));
-    detail::StereoSystem<Scalar> system(views, terms, poses, row, room);
+    detail::StereoSystem<Scalar> system(views, terms, poses, row, room, words);
     verdict = system.start(left.camera, right.camera, others);
     if (!verdict.ok()) return verdict;
 
     StereoCalibration<Scalar> result;
-    Status status = detail::descend(system, LevenbergMarquardtOptions(), result.refinement);
-    Scalar gain = scalar_of<Scalar>(0);
-    if (status == Status::ok) status = system.solve(detail::undamped, gain);
-    if (status != Status::ok) return {CalibrationProblem::parallel_views, -1};
+    const CalibrationProblem problem = detail::refine<Scalar>(system, terms, poses, result.refinement);
+    if (problem != CalibrationProblem::none) return {problem, -1};
     const Scalar variance =
         result.refinement.cost / scalar_of<Scalar>(2 * points - shared - std::int64_t{6} * count);
     auto& equations = system.equations();
@@ -303,8 +304,7 @@ CalibrationVerdict calibrate_stereo(Span<const StereoView> views, const Calibrat
         [&](int i) { return equations.shared_variance(6 + terms.count() + i) * variance; });
     result.rms = square_root(result.refinement.cost / scalar_of<Scalar>(points));
     bool open = !detail::FreeTerms::determined(result.left, result.left_deviation) ||
-                !detail::FreeTerms::determined(result.right, result.right_deviation) ||
-                (terms.of_pinhole() > 2 && detail::all_parallel<Scalar>(poses));
+                !detail::FreeTerms::determined(result.right, result.right_deviation);
     for (int i = 0; i < 3; ++i)
         if (!(result.rotation_deviation[i] < scalar_of<Scalar>(1, -3))) open = true;
     if (open) return {CalibrationProblem::parallel_views, -1};
