@@ -39,19 +39,24 @@ inline std::string json_number(const Real& value) { return real_text(value, 17);
 /// A number that is known to few digits.
 inline std::string json_rough(const Real& value) { return real_text(value, 6); }
 
+/// An angle from 0 to half a turn, which is -1/2 of one too.
+inline Decimal degrees_of(FineAngle angle) {
+    const std::int64_t millionths = angle.microdegrees();
+    return {millionths < 0 ? -millionths : millionths};
+}
 /// The angle between two directions, 0 to 180 degrees.
 inline Decimal degrees_between(const Vector<3>& a, const Vector<3>& b) {
     const Real length = length_of(a) * length_of(b);
     if (length.zero()) return {};
     const Real along = dot(a, b) / length;
     const Real across = length_of(cross(a, b)) / length;
-    return {angle_of(along.rounded(60), across.rounded(60)).microdegrees()};
+    return degrees_of(angle_of(along.rounded(60), across.rounded(60)));
 }
 /// The angle by which a rotation turns.
 inline Decimal degrees_of(const Matrix<3, 3>& r) {
     const Vector<3> axis(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
     const Real twice_cosine = r(0, 0) + r(1, 1) + r(2, 2) - Real::one();
-    return {angle_of(twice_cosine.rounded(59), length_of(axis).rounded(59)).microdegrees()};
+    return degrees_of(angle_of(twice_cosine.rounded(59), length_of(axis).rounded(59)));
 }
 
 /// What a camera sees, in degrees: along the row and the column through the principal point, and from corner

@@ -24,20 +24,18 @@ using apps::ExitCode;
 using apps::Picture;
 using Words = std::vector<std::string>;
 
-/// Pictures of ten places by the left camera, and by one 15 mm to its right.
-struct Pictures {
-    std::vector<Picture<Gray8>> left, right;
-
-    Pictures() {
-        for (BoardPlace place : good_places()) {
-            left.push_back(render_board({}, place));
+/// left0.pgm ... and right0.pgm ...: ten places by the left camera, and by one 15 mm to its right.
+const TestIo& pictures() {
+    static const TestIo all = [] {
+        TestIo io;
+        for (std::size_t i = 0; i < good_places().size(); ++i) {
+            BoardPlace place = good_places()[i];
+            put_picture(io, "left" + std::to_string(i) + ".pgm", render_board({}, place));
             place.x -= 15;
-            right.push_back(render_board({}, place));
+            put_picture(io, "right" + std::to_string(i) + ".pgm", render_board({}, place));
         }
-    }
-};
-const Pictures& pictures() {
-    static const Pictures all;
+        return io;
+    }();
     return all;
 }
 
@@ -49,11 +47,9 @@ Words operator+(Words words, const Words& more) {
 class CalibrateCommand : public ::testing::Test {
 protected:
     CalibrateCommand() {
-        for (std::size_t i = 0; i < pictures().left.size(); ++i) {
-            left.push_back("left" + std::to_string(i) + ".png");
-            right.push_back("right" + std::to_string(i) + ".png");
-            put_picture(io, left.back(), pictures().left[i]);
-            put_picture(io, right.back(), pictures().right[i]);
+        for (std::size_t i = 0; i < good_places().size(); ++i) {
+            left.push_back("left" + std::to_string(i) + ".pgm");
+            right.push_back("right" + std::to_string(i) + ".pgm");
         }
     }
     ExitCode run(const Words& words) {
@@ -90,7 +86,7 @@ protected:
         return Words(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count));
     }
 
-    TestIo io;
+    TestIo io = pictures();
     Words left, right;
     const Words board = {"--board", "7x6", "--square", "12"};
 };
@@ -129,15 +125,15 @@ TEST_F(CalibrateCommand, FindsTheCameraThatRenderedThePictures) {
 TEST_F(CalibrateCommand, TellsPeopleWhatItFoundAndHowSureItIs) {
     EXPECT_EQ(run(board + left), apps::exit_ok);
     ASSERT_EQ(io.complaints.size(), 10u);
-    EXPECT_EQ(io.complaints[3], "left3.png: 42 corners");
+    EXPECT_EQ(io.complaints[3], "left3.pgm: 42 corners");
     const std::vector<std::string> lines = lines_of(io.out);
-    ASSERT_EQ(lines.size(), 24u) << io.out;
+    ASSERT_EQ(lines.size(), 25u) << io.out;
     EXPECT_EQ(lines[0], "camera of 320x240 px, from 10 of 10 views with 420 corners");
     EXPECT_EQ(lines[1].compare(0, 7, "  fx  3"), 0) << lines[1];
     EXPECT_NE(lines[1].find(" +- "), std::string::npos);
     EXPECT_EQ(lines[9].compare(0, 8, "  sees 5"), 0) << lines[9];
-    EXPECT_EQ(lines[13].compare(0, 11, "  left0.png"), 0) << lines[13];
-    EXPECT_EQ(lines[23], "good: nothing speaks against this calibration");
+    EXPECT_EQ(lines[13].compare(0, 11, "  left0.pgm"), 0) << lines[13];
+    EXPECT_EQ(lines[24], "good: nothing speaks against this calibration");
 }
 
 TEST_F(CalibrateCommand, WritesWhatItFoundInEveryFormat) {
@@ -164,7 +160,12 @@ TEST_F(CalibrateCommand, WritesWhatItFoundInEveryFormat) {
     EXPECT_EQ(run(board + left + Words{"-o", "-"}), apps::exit_ok);
     EXPECT_EQ(io.out, "");
     EXPECT_EQ(io.text("-"), io.text("camera.toml"));
-    io.files.fail_saves_with = Status::io_error;
+    for (const char* const option : {"--out", "--coverage", "--explain"}) {
+        io.files.refused = option == std::string("--explain") ? "full-0.png" : "full.png";
+        EXPECT_EQ(run(board + left + Words{option, "full.png"}), apps::exit_failed);
+        EXPECT_NE(io.errors().find(io.files.refused + ": simulated fault\n"), std::string::npos) << option;
+        EXPECT_EQ(io.out.find("wrote"), std::string::npos);
+    }
 }
 
 TEST_F(CalibrateCommand, EstimatesNoMoreThanIsAskedFor) {
@@ -196,30 +197,30 @@ TEST_F(CalibrateCommand, PassesOverPicturesWithoutABoardWhateverTheirSize) {
 TEST_F(CalibrateCommand, RefusesPicturesOfSeveralSizes) {
     Pinhole small;
     small.picture = {300, 240};
-    put_picture(io, "small.png", render_board(small, good_places()[5]));
-    EXPECT_EQ(run(board + left + Words{"small.png"}), apps::exit_failed);
+    put_picture(io, "small.pgm", render_board(small, good_places()[5]));
+    EXPECT_EQ(run(board + left + Words{"small.pgm"}), apps::exit_failed);
     EXPECT_EQ(
         last_complaint(),
-        "fovea calibrate: small.png has 300x240 px, left0.png 320x240; all pictures are of one camera at one "
+        "fovea calibrate: small.pgm has 300x240 px, left0.pgm 320x240; all pictures are of one camera at one "
         "resolution");
     small.picture = {240, 320};
-    put_picture(io, "small.png", render_board(small, {-20, 0, 210, 20, 0, 90}));
-    EXPECT_EQ(run(board + left + Words{"small.png"}), apps::exit_failed);
+    put_picture(io, "small.pgm", render_board(small, {-20, 0, 210, 20, 0, 90}));
+    EXPECT_EQ(run(board + left + Words{"small.pgm"}), apps::exit_failed);
     EXPECT_EQ(last_complaint(),
-              "fovea calibrate: small.png has 240x320 px, left0.png 320x240; one of them is "
+              "fovea calibrate: small.pgm has 240x320 px, left0.pgm 320x240; one of them is "
               "turned: take all the same way up");
     EXPECT_EQ(io.out, "");
 }
 
 TEST_F(CalibrateCommand, CountsAPictureOnceThatIsGivenTwice) {
     const Json once = json_of(board + left).back();
-    put_picture(io, "again.png", pictures().left[3]);
-    const std::vector<Json> lines = json_of(board + left + Words{"again.png"});
+    io.put("again.pgm", pictures().files.files.at("left3.pgm"));
+    const std::vector<Json> lines = json_of(board + left + Words{"again.pgm"});
     EXPECT_EQ(lines[10]["used"].text, "false");
-    EXPECT_EQ(lines[10]["reason"].text, "the same picture as left3.png");
+    EXPECT_EQ(lines[10]["reason"].text, "the same picture as left3.pgm");
     EXPECT_EQ(lines.back()["rms_px"].text, once["rms_px"].text);
     EXPECT_TRUE(warns(lines.back(), "same_picture"));
-    EXPECT_EQ(last_complaint(), "warning: again.png is the same picture as left3.png; counted once");
+    EXPECT_EQ(last_complaint(), "warning: again.pgm is the same picture as left3.pgm; counted once");
 }
 
 TEST_F(CalibrateCommand, SaysWhichBoardIsSeenInPlaceOfAnother) {
@@ -268,13 +269,17 @@ TEST_F(CalibrateCommand, WarnsOfFewViewsAndOfPlacesWithoutABoard) {
 }
 
 TEST_F(CalibrateCommand, WarnsOfAViewThatDoesNotFit) {
-    // As if the board had been bent, or the picture scaled.
-    Pinhole other;
-    other.fx = 300;
-    put_picture(io, "bent.png", render_board(other, good_places()[6]));
-    const Json result = json_of(board + left + Words{"bent.png"}, apps::exit_not_ok).back();
+    // The board moved to the right while the rows were read.
+    BoardPlace place = good_places()[6];
+    place.about_z += 10;
+    Picture<Gray8> bent = render_board({}, place);
+    place.x += 2;
+    const Picture<Gray8> later = render_board({}, place);
+    std::copy(later.pixels.begin() + 110 * 320, later.pixels.end(), bent.pixels.begin() + 110 * 320);
+    put_picture(io, "bent.pgm", bent);
+    const Json result = json_of(board + left + Words{"bent.pgm"}, apps::exit_not_ok).back();
     EXPECT_TRUE(warns(result, "bad_view")) << io.errors();
-    EXPECT_NE(io.errors().find("warning: bent.png fits badly, "), std::string::npos) << io.errors();
+    EXPECT_NE(io.errors().find("warning: bent.pgm fits badly, "), std::string::npos) << io.errors();
 }
 
 TEST_F(CalibrateCommand, DrawsCornersAndCoverage) {
@@ -291,7 +296,6 @@ TEST_F(CalibrateCommand, DrawsCornersAndCoverage) {
     const Rgb888 ring{255, 240, 120};
     EXPECT_EQ(count(all, hatching), 0);
     EXPECT_GT(count(seen, ring), 50);
-    EXPECT_EQ(run(board + some(8) + Words{"--coverage", "some.png"}), apps::exit_ok) << io.errors();
     EXPECT_EQ(run(board + Words{left[5], left[6], left[7], left[0]} + Words{"--coverage", "some.png"}),
               apps::exit_ok)
         << io.errors();
@@ -306,16 +310,21 @@ TEST_F(CalibrateCommand, CalibratesAPairAndTellsHowItsCamerasStand) {
     ASSERT_EQ(lines.size(), 21u);
     EXPECT_EQ(lines[0]["camera"].text, "left");
     EXPECT_EQ(lines[10]["camera"].text, "right");
-    EXPECT_EQ(lines[10]["image"].text, "right0.png");
+    EXPECT_EQ(lines[10]["image"].text, "right0.pgm");
     const Json& result = lines.back();
     EXPECT_LT(result["rms_px"].number(), 0.15);
     EXPECT_LT(result["left"]["rms_px"].number(), 0.15);
     const double truth[] = {-15, 0, 0};
     for (std::size_t i = 0; i < 3; ++i) {
         const double deviation = result["translation_deviation_mm"].items[i].number();
-        EXPECT_LT(deviation, 0.1);
-        // Errors of corners that are rendered are not random, so that deviations are not the whole of it.
-        EXPECT_NEAR(result["translation_mm"].items[i].number(), truth[i], 0.3) << i;
+        EXPECT_GT(deviation, 0);
+        // Held cameras bring their own errors: that of the focal length moves boards, which are 300 mm away, by
+        // its share of their distance, in each of both.
+        double held = 0;
+        for (const char* side : {"left", "right"})
+            held += 300 * result[side]["deviations"]["fx"].number() / result[side]["camera"]["fx"].number();
+        EXPECT_LT(held, 1.5);
+        EXPECT_NEAR(result["translation_mm"].items[i].number(), truth[i], 5 * deviation + held) << i;
     }
     EXPECT_NEAR(result["rotation"].items[0].number(), 1, 1e-4);
     const CameraFile file = apps::read_camera(io.text("pair.toml"));
@@ -357,7 +366,7 @@ TEST_F(CalibrateCommand, WarnsOfPairsThatAreNone) {
         json_of(board + Words{"--left"} + left + Words{"--right"} + exchanged, apps::exit_not_ok).back();
     EXPECT_TRUE(warns(result, "pair_names"));
     EXPECT_TRUE(warns(result, "bad_pair") || warns(result, "pairs_disagree")) << io.errors();
-    EXPECT_NE(io.errors().find("left5.png is paired with right6.png"), std::string::npos);
+    EXPECT_NE(io.errors().find("left5.pgm is paired with right6.pgm"), std::string::npos);
 }
 
 TEST_F(CalibrateCommand, RefusesAPairWithoutACommonView) {
@@ -385,7 +394,7 @@ TEST_F(CalibrateCommand, EndsWithTwoWhereAPictureCannotBeRead) {
 }
 
 TEST_F(CalibrateCommand, SaysWhatIsWrongWithItsWords) {
-    const Words one = {"left0.png"};
+    const Words one = {"left0.pgm"};
     refuses(one, "which board? give --board 9x6: its columns x rows of inner corners");
     refuses(Words{"--board", "9x6"} + one, "how large is a square? give --square MM, measured on the board");
     refuses(board, "which pictures? give IMAGE..., or --left IMAGE... --right IMAGE...");
@@ -411,17 +420,17 @@ TEST_F(CalibrateCommand, SaysWhatIsWrongWithItsWords) {
     refuses(board + one + Words{"--free"}, "--free is of a pair; give --left IMAGE... and --right IMAGE...");
     refuses(board + one + Words{"-o", "-", "--json"},
             "--json and -o - both write to the standard output; give -o a name");
-    refuses(board + one + Words{"--left", "left1.png", "--right", "right1.png"},
+    refuses(board + one + Words{"--left", "left1.pgm", "--right", "right1.pgm"},
             "IMAGE... are of one camera, --left and --right of two; give the one or the other");
-    refuses(board + Words{"--left", "left1.png"},
+    refuses(board + Words{"--left", "left1.pgm"},
             "--right is missing or has no picture; a pair has --left IMAGE... and --right IMAGE...");
-    refuses(board + Words{"--left", "--right", "right1.png"},
+    refuses(board + Words{"--left", "--right", "right1.pgm"},
             "--left is missing or has no picture; a pair has --left IMAGE... and --right IMAGE...");
     refuses(
-        board + Words{"--left", "left1.png", "left2.png", "--right", "right1.png"},
+        board + Words{"--left", "left1.pgm", "left2.pgm", "--right", "right1.pgm"},
         "--left has 2 pictures and --right 1; each needs its partner at the same place of the other list");
-    refuses(board + one + Words{"-o", "left0.png"},
-            "--out would overwrite the picture left0.png; give another name");
+    refuses(board + one + Words{"-o", "left0.pgm"},
+            "--out would overwrite the picture left0.pgm; give another name");
     refuses(board + one + Words{"--explain", "a.png", "--coverage", "a.png"},
             "--explain would overwrite a.png; give another name");
     refuses(board + one + Words{"--coverage", "-"}, "--coverage writes a file; give it a name");
