@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/calibration_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
 #include <golden/code_blur_vectors.hpp>
@@ -61,7 +62,9 @@ inline constexpr Vector vectors[] = {
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
     {"number/wide", number_wide},
+    {"linear/block_equations", linear_block_equations},
     {"linear/eigen", linear_eigen},
+    {"linear/levenberg_marquardt", linear_levenberg_marquardt},
     {"linear/matrices", linear_matrices},
     {"linear/solvers", linear_solvers},
     {"simd/lanes", simd_lanes},
@@ -130,8 +133,11 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"camera/calibrate_planar", camera_calibrate_planar},
     {"camera/lens", camera_lens},
     {"camera/poses", camera_poses},
+    {"camera/projection_derivatives", camera_projection_derivatives},
+    {"stereo/calibrate_stereo", stereo_calibrate_stereo},
     {"code/blurred_ean", code_blurred_ean},
     {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},

@@ -16,11 +16,8 @@ class BoardCalibration {
 public:
     static constexpr int views = test::board_views;
 
-    BoardCalibration() {
-        for (int view = 0; view < views; ++view) views_[view] = {corners_.board, corners_.left[view]};
-    }
-
     bool calibrate() {
+        prepare();
         return calibrate_planar<Real>(Span<const PlanarView>(views_), test::board_picture, {},
                                       Span<std::uint8_t>(scratch_), Span<CalibratedView<>>(fits_),
                                       calibration_)
@@ -49,6 +46,7 @@ public:
     /// The equations of all corners set up between two calls, from the start of a calibration.
     template <class Begin, class End>
     bool set_up(Begin begin, End end) {
+        prepare();
         const detail::FreeTerms terms{IntrinsicsOptions()};
         Arena arena{Span<std::uint8_t>(scratch_)};
         const auto poses = arena.take<Pose<>>(views);
@@ -64,6 +62,10 @@ public:
     }
 
 private:
+    void prepare() {
+        for (int view = 0; view < views; ++view) views_[view] = {corners_.board, corners_.left[view]};
+    }
+
     static constexpr test::BoardCorners corners_ = test::board_corners();
 
     PlanarView views_[views];

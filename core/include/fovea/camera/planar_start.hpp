@@ -38,8 +38,8 @@ public:
     constexpr explicit FocalStart(Size picture);
 
     constexpr void add(const Matrix<3, 3, Scalar>& homography);
-    /// Where the homographies leave the two open, or tell pixels that are twice as wide as high, one for both;
-    /// where they leave that open too, the longer side of the picture.
+    /// Where the homographies leave the two open, or tell pixels that are twice as wide as high, one for
+    /// both; where they leave that open too, the longer side of the picture.
     constexpr Camera<Scalar> camera() const;
 
 private:

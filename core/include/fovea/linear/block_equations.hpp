@@ -16,7 +16,6 @@
 #include <fovea/number/int128.hpp>
 #include <fovea/number/real.hpp>
 #include <fovea/number/scalar.hpp>
-#include <fovea/number/wide.hpp>
 
 namespace fovea {
 
@@ -32,8 +31,8 @@ inline constexpr int residuals_together = 16;
 /// cube.
 ///
 /// Scratch   block_equations_scratch<Own>(shared, views) scalars, block_equations_words<Own>(shared) words
-/// Rounding  sums in the order in which residuals are added. Of Real, the sums over 16 residuals of a view are
-///           exact, of derivatives that are rounded to 2^-61 of the largest by the same unknown among them
+/// Rounding  sums in the order in which residuals are added. Of Real, the sums over 16 residuals of a view
+///           are exact, of derivatives that are rounded to 2^-61 of the largest by the same unknown among them
 /// Source    Schur complement; Triggs et al., "Bundle Adjustment - A Modern Synthesis", 1999, section 6.1
 template <int Own, class Scalar = Real>
 class BlockEquations {
@@ -80,7 +79,8 @@ private:
     constexpr void add_products(int view, Span<const Scalar> by_shared, const Vector<Own, Scalar>& by_own,
                                 Scalar residual);
 
-    /// Elements of a view: the upper triangle of its matrix, the products with what is shared, gradient, step.
+    /// Elements of a view: the upper triangle of its matrix, the products with what is shared, gradient,
+    /// step.
     constexpr Span<Scalar> part(int view, int from, int count) const {
         const int size = triangle + Own * (shared_ + 2);
         return parts_.from(std::int64_t{size} * view + from).first(count);
@@ -129,36 +129,6 @@ constexpr std::int64_t block_equations_words(int shared) {
 }
 
 // ---- Implementation ---------------------------------------------------------------
-
-namespace detail {
-
-/// An exact sum of products of whole numbers, below 2^127 in magnitude.
-class ProductSum {
-public:
-    constexpr void add(std::int64_t a, std::int64_t b) {
-        const auto x = static_cast<std::uint64_t>(a);
-        const auto y = static_cast<std::uint64_t>(b);
-        const Wide product = multiply_wide(x, y);
-        // Of two's complements: 2^64 too much for every sign.
-        high_ += product.high - (a < 0 ? y : 0) - (b < 0 ? x : 0);
-        low_ += product.low;
-        high_ += low_ < product.low ? 1 : 0;
-    }
-    /// Times 2^exponent, cut after 64 digits.
-    constexpr Real value(int exponent) const {
-        const auto high = static_cast<std::int64_t>(high_);
-        const auto half = static_cast<std::int64_t>(low_ >> 1);
-        const Int128 all =
-            (Int128(high) << 64) + (Int128(half) << 1) + Int128(static_cast<std::int64_t>(low_ & 1));
-        return Real::from_int(all, exponent);
-    }
-
-private:
-    std::uint64_t high_ = 0;
-    std::uint64_t low_ = 0;
-};
-
-}  // namespace detail
 
 template <int Own, class Scalar>
 constexpr BlockEquations<Own, Scalar>::BlockEquations(int shared, int views, Span<Scalar> scratch,
@@ -264,12 +234,12 @@ constexpr void BlockEquations<Own, Scalar>::finish() {
                 const std::int64_t* const second = numbers(d);
                 auto used = static_cast<std::uint32_t>(first[together] & second[together]);
                 if (used == 0) continue;
-                detail::ProductSum sum;
+                Int128 sum;
                 for (int r = 0; used != 0; ++r, used >>= 1)
-                    if ((used & 1) != 0) sum.add(first[r], second[r]);
+                    if ((used & 1) != 0) sum += Int128::product(first[r], second[r]);
                 const auto exponent = static_cast<int>(first[together + 1] + second[together + 1]);
                 Scalar& total = sum_of(waiting_view_, c, d);
-                total = total + sum.value(exponent);
+                total = total + Real::from_int(sum, exponent);
             }
         waiting_ = 0;
     }
