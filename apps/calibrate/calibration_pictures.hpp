@@ -138,12 +138,12 @@ private:
                      40, 4 * plot_width);
     }
     /// How many times as long as they are residuals are drawn: 1, 2, 5, 10 ... 1000, so that on average they
-    /// are 20 px on paper at most.
+    /// are 12 px on paper at most.
     static int times_for(const Real& rms, int width) {
         const Real on_paper = rms * Real::from_ratio(plot_width, maximum(width, 1));
         int times = 1;
         for (const int next : {2, 5, 10, 20, 50, 100, 200, 500, 1000})
-            if (on_paper * Real::from_int(next) <= Real::from_int(20)) times = next;
+            if (on_paper * Real::from_int(next) <= Real::from_int(12)) times = next;
         return times;
     }
     static void put(Status) {}  // what lies outside is not drawn
