@@ -27,6 +27,13 @@ namespace fovea {
 /// In a row of places: there is no such place.
 inline constexpr FinePoint no_fine_point{FinePixel::from_raw(simd::no_place), FinePixel()};
 
+namespace detail {
+
+/// A divisor of ratios whose magnitude is below 1.
+struct Divisor;
+
+}  // namespace detail
+
 /// What undistortion_map() makes: the numbers from which rows of places are calculated.
 class UndistortionMap {
 public:
@@ -43,6 +50,8 @@ public:
     /// Source    numerics of the project: rays grow by steps of 2^-44, coordinates have 30 bits of their
     ///           largest, the lens 28
     constexpr Status row(int y, Span<FinePoint> places) const;
+    /// The same to 1/256 px, as remap() takes it.
+    constexpr Status row(int y, Span<MapPoint> places) const;
     /// One of them.
     constexpr FinePoint place(int x, int y) const;
 
@@ -51,7 +60,11 @@ private:
     friend constexpr Result<UndistortionMap> undistortion_map(const LensInverse<Scalar>& lens,
                                                               const Matrix<3, 3, Scalar>& rotation,
                                                               const Camera<Scalar>& view, Size output);
-    constexpr FinePoint along(std::int64_t x, std::int64_t y, std::int64_t depth) const;
+    /// Where the ray (x, y, depth) meets the image.
+    constexpr FinePoint along(std::int64_t x, std::int64_t y, std::int64_t depth,
+                              const detail::Divisor& divisor) const;
+    template <class Place>
+    constexpr Status walk(int y, Span<Place> places) const;
 
     Size size_;
     // Ray of the pixel (u, v): step_u_ u + step_v_ v + first_, as parts of 2^44. x and y are parts of radius
@@ -125,13 +138,13 @@ constexpr std::int32_t part_of(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(round_shift(std::int64_t{a} * b, 30));
 }
 
-/// A divisor of ratios whose magnitude is below 1.
 struct Divisor {
     int raise = 0;
     std::int32_t inverse = 0;
 
-    /// value > 0.
+    /// Of a value above 0; of others nothing is divided.
     static constexpr Divisor of(std::int64_t value) {
+        if (value <= 0) return {};
         const int raise = leading_zeros(static_cast<std::uint64_t>(value));
         const auto d = static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << raise >> 32);
         // 2^62 / d by Newton's steps, from the line 48/17 - 32/17 d, which is off by 1/17 at most.
@@ -147,11 +160,17 @@ struct Divisor {
     }
 };
 
+constexpr void put_place(FinePoint place, FinePoint& to) { to = place; }
+constexpr void put_place(FinePoint place, MapPoint& to) {
+    to = place == no_fine_point ? no_map_point
+                                : MapPoint{place.x.convert<SubPixel>(), place.y.convert<SubPixel>()};
+}
+
 }  // namespace detail
 
-constexpr FinePoint UndistortionMap::along(std::int64_t x, std::int64_t y, std::int64_t depth) const {
+constexpr FinePoint UndistortionMap::along(std::int64_t x, std::int64_t y, std::int64_t depth,
+                                           const detail::Divisor& divisor) const {
     if (depth <= 0 || x >= depth || x <= -depth || y >= depth || y <= -depth) return no_fine_point;
-    const detail::Divisor divisor = detail::Divisor::of(depth);
     const std::int32_t u = divisor.share(x);
     const std::int32_t v = divisor.share(y);
     const std::int32_t uu = detail::part_of(u, u);
@@ -181,21 +200,29 @@ constexpr FinePoint UndistortionMap::along(std::int64_t x, std::int64_t y, std::
 constexpr FinePoint UndistortionMap::place(int x, int y) const {
     std::int64_t ray[3] = {};
     for (int i = 0; i < 3; ++i) ray[i] = first_[i] + step_v_[i] * y + step_u_[i] * x;
-    return along(ray[0], ray[1], ray[2]);
+    return along(ray[0], ray[1], ray[2], detail::Divisor::of(ray[2]));
 }
 
-constexpr Status UndistortionMap::row(int y, Span<FinePoint> places) const {
+template <class Place>
+constexpr Status UndistortionMap::walk(int y, Span<Place> places) const {
     if (size_.empty() || places.empty()) return Status::empty_image;
     if (places.size() > size_.width + (map_grid_step - 1)) return Status::size_mismatch;
     if (y < 0 || y >= size_.height + (map_grid_step - 1)) return Status::out_of_range;
     std::int64_t ray[3] = {};
     for (int i = 0; i < 3; ++i) ray[i] = first_[i] + step_v_[i] * y;
+    // Without rotation all of a row is at one depth.
+    const bool level = step_u_[2] == 0;
+    detail::Divisor divisor = detail::Divisor::of(ray[2]);
     for (std::ptrdiff_t x = 0; x < places.size(); ++x) {
-        places[x] = along(ray[0], ray[1], ray[2]);
+        if (!level) divisor = detail::Divisor::of(ray[2]);
+        detail::put_place(along(ray[0], ray[1], ray[2], divisor), places[x]);
         for (int i = 0; i < 3; ++i) ray[i] += step_u_[i];
     }
     return Status::ok;
 }
+
+constexpr Status UndistortionMap::row(int y, Span<FinePoint> places) const { return walk(y, places); }
+constexpr Status UndistortionMap::row(int y, Span<MapPoint> places) const { return walk(y, places); }
 
 template <class Scalar>
 constexpr Result<UndistortionMap> undistortion_map(const LensInverse<Scalar>& lens,
@@ -283,29 +310,21 @@ constexpr Result<UndistortionMap> undistortion_map(const LensInverse<Scalar>& le
     return map;
 }
 
-namespace detail {
-
-constexpr MapPoint map_point(FinePoint place) {
-    if (place == no_fine_point) return no_map_point;
-    return {place.x.convert<SubPixel>(), place.y.convert<SubPixel>()};
-}
-
-constexpr Status fill_places(const UndistortionMap& map, Size needed, int step, ImageView<MapPoint> points) {
+constexpr Status undistortion_points(const UndistortionMap& map, ImageView<MapPoint> points) {
     if (map.size().empty() || points.empty()) return Status::empty_image;
-    if (points.size() != needed) return Status::size_mismatch;
-    for (int y = 0; y < needed.height; ++y)
-        for (int x = 0; x < needed.width; ++x) points(x, y) = map_point(map.place(x * step, y * step));
+    if (points.size() != map.size()) return Status::size_mismatch;
+    for (int y = 0; y < points.height(); ++y)
+        if (Status s = map.row(y, Span<MapPoint>(points.row(y), points.width())); s != Status::ok) return s;
     return Status::ok;
 }
 
-}  // namespace detail
-
-constexpr Status undistortion_points(const UndistortionMap& map, ImageView<MapPoint> points) {
-    return detail::fill_places(map, map.size(), 1, points);
-}
-
 constexpr Status undistortion_grid(const UndistortionMap& map, ImageView<MapPoint> grid) {
-    return detail::fill_places(map, map_grid_size(map.size()), map_grid_step, grid);
+    if (map.size().empty() || grid.empty()) return Status::empty_image;
+    if (grid.size() != map_grid_size(map.size())) return Status::size_mismatch;
+    for (int y = 0; y < grid.height(); ++y)
+        for (int x = 0; x < grid.width(); ++x)
+            detail::put_place(map.place(x * map_grid_step, y * map_grid_step), grid(x, y));
+    return Status::ok;
 }
 
 inline Result<FinePixel> undistortion_grid_error(const UndistortionMap& map, ImageView<const MapPoint> grid,
