@@ -52,7 +52,7 @@ inline Status make_map(const LensInverse<>& lens, const Matrix<3, 3>& rotation, 
 }
 
 /// A picture in colour, or in grey if the file has no colour.
-struct AnyPicture {
+struct CameraPicture {
     bool colour = false;
     Picture<Gray8> gray;
     Picture<Rgb888> rgb;
@@ -62,8 +62,8 @@ struct AnyPicture {
 
 /// Reads a picture as what it is. If there is none, problem says why.
 template <class Storage>
-bool load_any(Storage& storage, const std::string& name, AnyPicture& picture, std::string& problem) {
-    picture = AnyPicture();
+bool load_any(Storage& storage, const std::string& name, CameraPicture& picture, std::string& problem) {
+    picture = CameraPicture();
     const Result<Span<const std::uint8_t>> bytes = storage.load(name.c_str());
     if (bytes) {
         const Result<PictureInfo> info = inspect_picture(*bytes);
@@ -75,8 +75,8 @@ bool load_any(Storage& storage, const std::string& name, AnyPicture& picture, st
 }
 
 /// The picture by the map; what the camera did not see is black.
-inline AnyPicture mapped(const AnyPicture& picture, const PictureMap& map) {
-    AnyPicture result;
+inline CameraPicture mapped(const CameraPicture& picture, const PictureMap& map) {
+    CameraPicture result;
     result.colour = picture.colour;
     const auto warp = [&](const auto& from, auto& to) {
         to = std::decay_t<decltype(to)>(map.size);
@@ -92,7 +92,7 @@ inline AnyPicture mapped(const AnyPicture& picture, const PictureMap& map) {
 }
 
 template <class Storage>
-bool save_any(Storage& storage, const std::string& name, const AnyPicture& picture, std::string& problem) {
+bool save_any(Storage& storage, const std::string& name, const CameraPicture& picture, std::string& problem) {
     return picture.colour ? save_picture(storage, name, picture.rgb, problem)
                           : save_picture(storage, name, picture.gray, problem);
 }

@@ -36,7 +36,7 @@ inline Command rectify_help() {
 
 namespace detail {
 
-inline Picture<Rgb888> in_colour(const AnyPicture& picture) {
+inline Picture<Rgb888> in_colour(const CameraPicture& picture) {
     if (picture.colour) return picture.rgb;
     Picture<Rgb888> result(picture.gray.size);
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
@@ -47,7 +47,7 @@ inline Picture<Rgb888> in_colour(const AnyPicture& picture) {
 }
 
 /// Both pictures side by side, or above each other, with lines along what agrees.
-inline Picture<Rgb888> side_by_side(const AnyPicture& left, const AnyPicture& right, StereoAxis axis) {
+inline Picture<Rgb888> side_by_side(const CameraPicture& left, const CameraPicture& right, StereoAxis axis) {
     const Size size = left.size();
     const bool rows = axis == StereoAxis::x;
     Picture<Rgb888> sheet(rows ? Size{2 * size.width, size.height} : Size{size.width, 2 * size.height});
@@ -113,7 +113,7 @@ ExitCode rectify_command(Io& io, const std::vector<std::string>& words) {
     const std::string camera_name = arguments.value("camera");
     CameraFile file;
     if (!load_camera(io, camera_name, file)) return exit_failed;
-    AnyPicture pictures[2];
+    CameraPicture pictures[2];
     for (std::size_t i = 0; i < 2; ++i)
         if (!load_any(io.storage(), arguments.operands()[i], pictures[i], problem)) return failed(problem);
     const Size size = pictures[0].size();
@@ -132,7 +132,7 @@ ExitCode rectify_command(Io& io, const std::vector<std::string>& words) {
     if (!pair) return failed(problem);
 
     std::int64_t empty[2] = {};
-    AnyPicture made[2];
+    CameraPicture made[2];
     for (std::size_t i = 0; i < 2; ++i) {
         PictureMap map;
         const Status status =

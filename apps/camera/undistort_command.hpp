@@ -76,7 +76,7 @@ public:
           lens_(record.camera) {}
 
     ExitCode undistort(const std::string& name, const std::string& out) {
-        AnyPicture picture;
+        CameraPicture picture;
         std::string problem;
         if (!load_any(io_.storage(), name, picture, problem)) return failed(problem);
         const Size size = picture.size();
