@@ -81,7 +81,7 @@ private:
                 (seen.found ? std::to_string(seen.corners.size()) + " " + what_is_seen(options_.board.pattern)
                             : seen.reason));
             if (seen.picture.empty()) failed_ = true;
-            if (!seen.found && !seen.picture.empty() && missed_.size.empty()) missed_ = image;
+            if (!seen.found && !seen.picture.empty()) missed_.push_back(names[i]);
             const std::string name = options_.explain_name(of_right, i);
             std::string problem;
             if (!name.empty() && !seen.picture.empty() &&
@@ -99,12 +99,26 @@ private:
         if (const std::string problem = sizes_problem(boards); !problem.empty()) return problem;
         if (std::any_of(boards.begin(), boards.end(), [](const SeenBoard& board) { return board.found; }))
             return "";
-        const Size other = likely_board(missed_, options_.board);
+        const Size other = likely_board();
         return "no picture shows the whole board; " +
                (other.empty()
                     ? "--board counts inner corners, so that 10x7 squares are 9x6; is the board whole "
                       "in the pictures, with a bright rim, sharp and evenly lit?"
                     : "a board of " + board_text(other) + " is seen: give --board " + board_text(other));
+    }
+    /// The board that was perhaps meant, 0x0 if none is seen. Five pictures are looked at: the first may be of
+    /// something else.
+    Size likely_board() {
+        const std::size_t last = missed_.size() - 1;
+        for (std::size_t i = 0; i < 5; ++i) {
+            Picture<Gray8> image;
+            std::string problem;
+            if (i > 0 && last * i / 4 == last * (i - 1) / 4) continue;
+            if (!load_picture(io_.storage(), missed_[last * i / 4], max_image_side, image, problem)) continue;
+            const Size size = apps::likely_board(image, options_.board);
+            if (!size.empty()) return size;
+        }
+        return {};
     }
     /// Ends without a calibration. What was seen is told to machines all the same.
     ExitCode fail(const std::string& problem) {
@@ -191,7 +205,7 @@ private:
     }
 
     /// Says what was found, and writes the files.
-    ExitCode finish(std::string report, const std::vector<CameraRecord>& records,
+    ExitCode finish(const std::string& report, const std::vector<CameraRecord>& records,
                     const std::vector<CoveragePanel>& panels) {
         ExitCode code = doubtful(warnings_) ? exit_not_ok : exit_ok;
         std::string problem;
@@ -201,13 +215,12 @@ private:
             code = exit_failed;
         }
         if (!options_.out.empty() && !write(records)) code = exit_failed;
+        const bool for_people = !options_.json && options_.out != "-";
+        if (for_people) io_.print(report);
         for (const CalibrationWarning& warning : warnings_) io_.complain("warning: " + warning.text);
-        report += human_judgement(warnings_);
-        if (options_.json) return code;
-        if (options_.out != "-") {
-            io_.print(report);
-            if (!options_.out.empty() && code != exit_failed) io_.print("wrote " + options_.out + "\n");
-        }
+        if (!for_people) return code;
+        io_.print(human_judgement(warnings_));
+        if (!options_.out.empty() && code != exit_failed) io_.print("wrote " + options_.out + "\n");
         return code;
     }
     bool write(const std::vector<CameraRecord>& records) {
@@ -229,7 +242,7 @@ private:
     const CalibrateOptions& options_;
     std::vector<SeenBoard> boards_;
     std::vector<SeenBoard> right_boards_;
-    Picture<Gray8> missed_;
+    std::vector<std::string> missed_;  ///< pictures without a board
     CalibrationWarnings warnings_;
     Real stereo_rms_;
     bool failed_ = false;

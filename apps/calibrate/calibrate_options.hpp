@@ -27,8 +27,9 @@ inline Command calibrate_help() {
         {{"board", "WxH", "columns x rows of inner corners: a board of 10x7 squares has\n9x6; required"},
          {"square", "MM", "the side of a square in mm, measured on the board; required"},
          {"out", "FILE", "write the calibration, also -o; - for the standard output"},
-         {"format", "toml|ivt|opencv|chip",
-          "of that file; if not given, what its name ends in says: .yml\nor .yaml is opencv, .txt ivt, .bin "
+         {"format", "NAME",
+          "of that file: toml, ivt, opencv or chip; if not given, what its name ends in says: .yml\nor .yaml "
+          "is opencv, .txt ivt, .bin "
           "chip, all else toml"},
          {"left", "IMAGE...",
           "pictures of the left camera, all words up to the next option, or a\nlist with commas"},

@@ -39,8 +39,8 @@ inline Decimal tilt_of(const ViewFit& view) {
     const Decimal other = Decimal::from_int(180) - angle;
     return std::min(angle, other);
 }
-/// Of the board's first corner.
-inline Real distance_of(const ViewFit& view) { return millimetres(length_of(view.fit.pose.translation)); }
+/// Of the board's middle.
+inline Real distance_of(const ViewFit& view) { return millimetres(length_of(view.middle)); }
 
 /// Names without their folders, where that leaves them different.
 inline std::vector<std::string> short_names(const std::vector<SeenBoard>& boards) {
@@ -160,7 +160,7 @@ inline std::string json_rotation(const Matrix<3, 3>& r) {
 }
 inline std::string json_pose(const ViewFit& view) {
     return ",\"residual_px\":" + json_number(view.fit.rms) + ",\"worst_px\":" + json_rough(view.worst) +
-           ",\"tilt_deg\":" + number(tilt_of(view), 2) +
+           ",\"tilt_deg\":" + number(tilt_of(view), 2) + ",\"distance_mm\":" + json_rough(distance_of(view)) +
            ",\"rotation\":" + json_rotation(view.fit.pose.rotation) +
            ",\"translation_mm\":" + json_vector(in_millimetres(view.fit.pose.translation), false);
 }

@@ -221,6 +221,14 @@ inline void judge_camera(const std::vector<SeenBoard>& boards, const CameraEstim
         if (board.found && !board.used)
             warnings.push_back(
                 {"same_picture", false, board.name + " is " + board.reason + "; counted once"});
+    const auto missed =
+        std::count_if(boards.begin(), boards.end(), [](const SeenBoard& board) { return !board.found; });
+    if (3 * static_cast<std::size_t>(missed) > boards.size())
+        warnings.push_back({"boards_missed", false,
+                            (who.empty() ? "" : who + ": ") + std::to_string(missed) + " of " +
+                                std::to_string(boards.size()) +
+                                " pictures show no whole board; is it in the picture with its rim, sharp and "
+                                "evenly lit?"});
     detail::CameraJudge(boards, estimate, who, warnings).judge();
 }
 

@@ -35,7 +35,8 @@ struct ViewFit {
     CalibratedView<> fit;
     /// From where each corner was seen to where the calibrated camera sees it, in pixels.
     std::vector<Vector<2>> residuals;
-    Real worst;  ///< the length of the longest
+    Real worst;        ///< the length of the longest
+    Vector<3> middle;  ///< of the board, in micrometres before the camera
 };
 
 struct CameraEstimate {
@@ -49,6 +50,12 @@ struct CameraEstimate {
         return verdict.view < 0 ? "" : boards[views[static_cast<std::size_t>(verdict.view)].seen].name;
     }
 };
+
+/// Where the middle of a board is, of which a pose tells the first corner.
+inline Vector<3> middle_of(const Board& board, const Pose<>& pose) {
+    const PlanePoint last = board.points().back();
+    return pose(Vector<3>(Real::from_int(last.x, -1), Real::from_int(last.y, -1), Real()));
+}
 
 /// From where corners of a board were seen to where a camera sees them.
 inline void measure_residuals(const Camera<>& camera, const Pose<>& pose, Span<const PlanePoint> board,
@@ -71,7 +78,7 @@ inline CameraEstimate estimate_camera(const std::vector<SeenBoard>& boards, cons
     for (std::size_t i = 0; i < boards.size(); ++i) {
         if (!boards[i].used) continue;
         estimate.picture = boards[i].picture;
-        estimate.views.push_back({i, {}, {}, {}});
+        estimate.views.emplace_back().seen = i;
         views.push_back({span_over(points), boards[i].span()});
     }
     std::vector<CalibratedView<>> fits(views.size());
@@ -81,6 +88,7 @@ inline CameraEstimate estimate_camera(const std::vector<SeenBoard>& boards, cons
                                               span_over(scratch), span_over(fits), estimate.calibration);
     for (std::size_t i = 0; i < views.size() && estimate.verdict.ok(); ++i) {
         estimate.views[i].fit = fits[i];
+        estimate.views[i].middle = middle_of(board, fits[i].pose);
         measure_residuals(estimate.calibration.camera, fits[i].pose, views[i].board, views[i].seen,
                           estimate.views[i]);
     }
@@ -123,7 +131,7 @@ inline PairEstimate estimate_pair(const std::vector<SeenBoard>& left_boards,
             SeenBoard& turned = right_boards[other.seen];
             if (board.symmetric() && better_turned(one.fit.pose, other.fit.pose))
                 turn_by_half(turned.corners);
-            estimate.views.push_back({one.seen, {}, {}, {}});
+            estimate.views.emplace_back().seen = one.seen;
             views.push_back({span_over(points), left_boards[one.seen].span(), turned.span()});
         }
     std::vector<CalibratedView<>> fits(views.size());
@@ -136,6 +144,7 @@ inline PairEstimate estimate_pair(const std::vector<SeenBoard>& left_boards,
     for (std::size_t i = 0; i < views.size() && estimate.verdict.ok(); ++i) {
         const StereoCalibration<>& found = estimate.calibration;
         estimate.views[i].fit = fits[i];
+        estimate.views[i].middle = middle_of(board, fits[i].pose);
         measure_residuals(found.left, fits[i].pose, views[i].board, views[i].left, estimate.views[i]);
         measure_residuals(found.right, compose(found.right_from_left, fits[i].pose), views[i].board,
                           views[i].right, estimate.views[i]);

@@ -224,8 +224,9 @@ TEST_F(CalibrateCommand, CountsAPictureOnceThatIsGivenTwice) {
 }
 
 TEST_F(CalibrateCommand, SaysWhichBoardIsSeenInPlaceOfAnother) {
-    // The squares were counted.
-    EXPECT_EQ(run(Words{"--board", "8x7", "--square", "12"} + some(3)), apps::exit_failed);
+    // The squares were counted, and the first picture is of something else.
+    put_picture(io, "wall.png", Picture<Gray8>({200, 100}));
+    EXPECT_EQ(run(Words{"--board", "8x7", "--square", "12", "wall.png"} + some(3)), apps::exit_failed);
     EXPECT_EQ(last_complaint(),
               "fovea calibrate: no picture shows the whole board; a board of 7x6 is seen: give "
               "--board 7x6");

@@ -190,6 +190,16 @@ TEST(CalibrationWarnings, TellOfPicturesThatAreCopies) {
     EXPECT_EQ(copies.judged()[0].text, "a9.png is the same picture as a1.png; counted once");
 }
 
+TEST(CalibrationWarnings, TellOfManyPicturesWithoutABoard) {
+    Calibrated missed;
+    SeenBoard none;
+    missed.boards.resize(15, none);
+    EXPECT_EQ(missed.codes(), Codes());
+    missed.boards.resize(16, none);
+    EXPECT_EQ(missed.codes(), Codes{"boards_missed"});
+    EXPECT_TRUE(begins(missed.judged("right")[0].text, "right: 6 of 16 pictures show no whole board; "));
+}
+
 /// The codes of a pair of two good cameras.
 Codes codes_of(const PairEstimate& pair, const std::string& right_name = "b0.png") {
     const Calibrated camera;
