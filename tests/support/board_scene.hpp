@@ -66,9 +66,15 @@ public:
         const double ca = std::cos(a), sa = std::sin(a), ct = std::cos(t), st = std::sin(t), cr = std::cos(r),
                      sr = std::sin(r);
         const double far = focal_ / scene.step;
-        map_ = {ca * cr - sa * ct * sr, -ca * sr - sa * ct * cr, scene.x / scene.step,
-                sa * cr + ca * ct * sr, -sa * sr + ca * ct * cr, scene.y / scene.step,
-                st * sr,                st * cr,                 far};
+        map_ = {ca * cr - sa * ct * sr,
+                -ca * sr - sa * ct * cr,
+                scene.x / scene.step,
+                sa * cr + ca * ct * sr,
+                -sa * sr + ca * ct * cr,
+                scene.y / scene.step,
+                st * sr,
+                st * cr,
+                far};
     }
 
     /// Where a corner or the centre of a circle is seen.
@@ -94,8 +100,8 @@ public:
         std::vector<Seen> below(static_cast<std::size_t>(w) + 1);
         const auto look = [&](int y, std::vector<Seen>& to) {
             for (int x = 0; x <= w; ++x)
-                to[static_cast<std::size_t>(x)] =
-                    board_of(static_cast<double>(x) / fine - margin - 0.5, static_cast<double>(y) / fine - margin - 0.5);
+                to[static_cast<std::size_t>(x)] = board_of(static_cast<double>(x) / fine - margin - 0.5,
+                                                           static_cast<double>(y) / fine - margin - 0.5);
         };
         const auto index = [w](int x, int y) {
             return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
@@ -137,7 +143,8 @@ private:
     }
     Seen middle() const {
         const Seen last = place(scene_.board.width - 1, scene_.board.height - 1);
-        const double more = scene_.pattern == BoardPattern::asymmetric_circles && scene_.board.height % 2 != 0;
+        const double more =
+            scene_.pattern == BoardPattern::asymmetric_circles && scene_.board.height % 2 != 0;
         return {(last.x + more) / 2, last.y / 2};
     }
     Seen project(double u, double v) const {
@@ -203,8 +210,7 @@ private:
         if (equal) return first;
         constexpr int over = 10;
         double sum = 0;
-        for (int i = 0; i < over * over; ++i)
-            sum += at((i % over + 0.5) / over, (i / over + 0.5) / over);
+        for (int i = 0; i < over * over; ++i) sum += at((i % over + 0.5) / over, (i / over + 0.5) / over);
         return sum / (over * over);
     }
     void blur(std::vector<float>& light, int w, int h) const {

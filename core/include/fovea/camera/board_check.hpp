@@ -31,8 +31,7 @@ public:
     BoardVector step(int column, int row, int axis) const {
         const int c = axis == 0 ? 1 : 0;
         const int r = 1 - c;
-        const BoardVector next =
-            (*this)(minimum(column + c, columns() - 1), minimum(row + r, rows() - 1));
+        const BoardVector next = (*this)(minimum(column + c, columns() - 1), minimum(row + r, rows() - 1));
         const BoardVector last = (*this)(maximum(column - c, 0), maximum(row - r, 0));
         const bool inner = axis == 0 ? column > 0 && column < columns() - 1 : row > 0 && row < rows() - 1;
         const BoardVector way = next - last;

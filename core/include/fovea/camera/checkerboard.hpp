@@ -40,7 +40,27 @@ inline namespace FOVEA_ISA {
 /// Scratch bytes that find_checkerboard() needs, about 4/3 of the pixels; 0 if it refuses board or options.
 constexpr std::int64_t find_checkerboard_scratch(Size size, Size board, const CheckerboardOptions& options);
 
-/// Finds the inner corners of a checkerboard: all of them, or none.
+/// The inner corners of a checkerboard: all of them, or none.
+///
+/// Shapes    board: columns and rows of inner corners, 3 to 64 each. A square is to have 6 px or more where it
+///           is smallest, across it too when it is seen askew
+/// Units     1/256 px
+/// Order     row by row, `columns` in a row, and rows to the right hand of the way along a row, as x and y are.
+///           First comes the corner whose outermost square is dark: with one side odd and the other even there
+///           is one such corner, which stays the first however the board turns. Where several are alike (both
+///           sides odd or both even), the one whose row runs most to the right; of two such, down
+/// Scratch   find_checkerboard_scratch(src.size(), board, options) bytes, undefined afterwards
+/// Time      the pixels, about 35 instructions each, for every halving that is looked at, from the smallest up
+///           to the first in which the board is found. Then work ends: places that are looked at for corners
+///           are 8 times the pixels at most
+/// Errors    empty_image; image_too_large; bad_argument; scratch_too_small; buffer_too_small for fewer places
+///           than the board has; not_found: also for a board of which a corner is hidden or outside, and for a
+///           larger board
+/// Source    the saddle by second derivatives: Chen and Zhang, "A new sub-pixel detector for x-corners in
+///           camera calibration targets", WSCG 2005; a lattice that grows: Geiger et al., "Automatic camera and
+///           range sensor calibration using a single shot", ICRA 2012, here from edge to edge and with what
+///           lies between them looked at. Places by refine_saddle_point() on the image itself, in a window of
+///           0.45 squares
 inline Status find_checkerboard(ImageView<const Gray8> src, Size board, const CheckerboardOptions& options,
                                 Span<std::uint8_t> scratch, Span<SubPixelPoint> corners);
 
@@ -51,8 +71,8 @@ inline Status find_checkerboard(ImageView<const Gray8> src, Size board, const Ch
 namespace detail {
 
 constexpr bool is_valid_board(Size board) {
-    return board.width >= min_board_side && board.height >= min_board_side &&
-           board.width <= max_board_side && board.height <= max_board_side;
+    return board.width >= min_board_side && board.height >= min_board_side && board.width <= max_board_side &&
+           board.height <= max_board_side;
 }
 constexpr bool is_valid(const CheckerboardOptions& options) {
     return options.least_contrast >= 4 && options.least_contrast <= 255 && options.candidates >= 64 &&
@@ -65,8 +85,8 @@ inline namespace FOVEA_ISA {
 namespace kernels {
 
 using detail::BoardFrame;
-using detail::BoardPlaces;
 using detail::BoardLattice;
+using detail::BoardPlaces;
 using detail::BoardVector;
 using detail::LatticePlace;
 using detail::LatticeWindow;
@@ -99,7 +119,7 @@ public:
         }
         return halves + size.area() + arena_bytes<SaddleCandidate>(options.candidates) +
                arena_bytes<std::int32_t>(3 * std::int64_t{size.width}) + BoardLattice::scratch(reach(board)) +
-               arena_bytes<SubPixelPoint>(board.area()) +               gaussian_5x5_scratch(size);
+               arena_bytes<SubPixelPoint>(board.area()) + gaussian_5x5_scratch(size);
     }
     CheckerboardFinder(ImageView<const Gray8> src, Size board, const CheckerboardOptions& options,
                        Span<std::uint8_t> bytes)
@@ -142,7 +162,8 @@ private:
         if (gaussian_5x5(levels_[k], Border::replicate, arena_.rest(), smooth) != Status::ok) return false;
         field_ = SaddleField(smooth, options_.least_contrast);
         int found = 0;
-        const ListView<SaddleCandidate> list(candidates_.data(), static_cast<int>(candidates_.size()), &found);
+        const ListView<SaddleCandidate> list(candidates_.data(), static_cast<int>(candidates_.size()),
+                                             &found);
         field_.gather(rows_, list);
         all_ = list.span();
         if (found < board_.area() / 4) return false;
@@ -199,8 +220,8 @@ private:
             const int radius = clamp(height * 3 / 10 / 256, 1, 64);
             budget_ -= (2 * radius + 1) * (2 * radius + 1);
             if (budget_ <= 0) return false;
-            const Result<BoardVector> place = field_.saddle_near(
-                expected, radius, saddle_way(u_here), saddle_way(v_here), sign_of(at));
+            const Result<BoardVector> place =
+                field_.saddle_near(expected, radius, saddle_way(u_here), saddle_way(v_here), sign_of(at));
             if (!place || !field_.crosses(*place, u_here, v_here, sign_of(at)) || !joins(at, *place))
                 return false;
             lattice_.add(at, *place, -1);
@@ -255,7 +276,8 @@ private:
         BoardVector best_row;
         bool any = false;
         for (int quarters = 0; quarters < 4; ++quarters) {
-            const Size size = quarters % 2 == 0 ? window_.size : Size{window_.size.height, window_.size.width};
+            const Size size =
+                quarters % 2 == 0 ? window_.size : Size{window_.size.height, window_.size.width};
             if (size != board_) continue;
             const BoardFrame frame = frame_of(window_, quarters);
             const BoardVector row = first_row(lattice_, frame, board_.width);
@@ -294,8 +316,7 @@ private:
                 places.set(column, row, *point);
             }
         const bool bright = is_bright(frame);
-        if (!is_even(places) || !is_checkered(src_, places, bright) ||
-            is_part(src_, places, bright))
+        if (!is_even(places) || !is_checkered(src_, places, bright) || is_part(src_, places, bright))
             return Status::not_found;
         for (std::ptrdiff_t n = 0; n < refined_.size(); ++n) corners[n] = refined_[n];
         return Status::ok;
@@ -350,8 +371,7 @@ inline Status find_checkerboard(ImageView<const Gray8> src, Size board, const Ch
                                 Span<std::uint8_t> scratch, Span<SubPixelPoint> corners) {
     if (src.empty()) return Status::empty_image;
     if (src.width() > max_image_side || src.height() > max_image_side) return Status::image_too_large;
-    if (!detail::is_valid_board(board) || !detail::is_valid(options))
-        return Status::bad_argument;
+    if (!detail::is_valid_board(board) || !detail::is_valid(options)) return Status::bad_argument;
     if (scratch.size() < find_checkerboard_scratch(src.size(), board, options))
         return Status::scratch_too_small;
     if (corners.size() < board.area()) return Status::buffer_too_small;

@@ -137,8 +137,8 @@ public:
         const auto fraction = [&](int before, int after) {
             const int bend = 2 * best - before - after;
             if (before > best || after > best || bend <= 0) return 0;
-            return static_cast<int>(clamp<std::int64_t>(
-                std::int64_t{after - before} * 128 / bend, -128, 128));
+            return static_cast<int>(
+                clamp<std::int64_t>(std::int64_t{after - before} * 128 / bend, -128, 128));
         };
         const int dx = fraction(sign * along({at.x - 1, at.y}, u, v), sign * along({at.x + 1, at.y}, u, v));
         const int dy = fraction(sign * along({at.x, at.y - 1}, u, v), sign * along({at.x, at.y + 1}, u, v));
@@ -217,9 +217,9 @@ private:
 
     /// Whether a ring of radius 3 has two bright and two dark parts; finds the edges between them.
     bool alternates(SaddleCandidate& c) const {
-        constexpr std::int8_t ring[16][2] = {{3, 0},  {3, 1},   {2, 2},   {1, 3},   {0, 3},  {-1, 3},
-                                             {-2, 2}, {-3, 1},  {-3, 0},  {-3, -1}, {-2, -2}, {-1, -3},
-                                             {0, -3}, {1, -3},  {2, -2},  {3, -1}};
+        constexpr std::int8_t ring[16][2] = {{3, 0},  {3, 1},  {2, 2},  {1, 3},   {0, 3},   {-1, 3},
+                                             {-2, 2}, {-3, 1}, {-3, 0}, {-3, -1}, {-2, -2}, {-1, -3},
+                                             {0, -3}, {1, -3}, {2, -2}, {3, -1}};
         // The directions of the first five, in 1/65536 turn; the others follow by quarters.
         constexpr int angles[4] = {0, 3356, 8192, 13028};
         int values[16];
@@ -258,7 +258,8 @@ private:
             return Angle::from_raw(static_cast<std::uint16_t>(angle[k] + turn / 2));
         };
         const auto skew = [&](int k, int opposite) {
-            return Angle::from_raw(static_cast<std::uint16_t>(angle[opposite] + 32768 - angle[k])).signed_raw();
+            return Angle::from_raw(static_cast<std::uint16_t>(angle[opposite] + 32768 - angle[k]))
+                .signed_raw();
         };
         const int a = first_rise;
         const int b = (a + 1) & 3;

@@ -27,22 +27,27 @@ struct SaddleWindow {
     SubPixelPoint v;  ///< along the other
 };
 
-/// The place around which the edges near start run: each gradient stands across the way from the place to its
-/// pixel. Least squares over a disc, moved until it stands on the place itself.
+/// The saddle of brightness near a place: where two edges cross, and fields between them alternate.
 ///
-/// Shapes    src 3x3 or larger; radius should end before the next parallel edges, which would pull
+/// First the place around which edges run, since each gradient stands across the way from the place to its
+/// pixel: least squares over a disc that moves with the place. Where blur is about as wide as the disc there
+/// are no edges in it, and this comes to no rest; then the place around which the mean gradient is 0.
+///
+/// Shapes    src 1x1 or larger; radius should end before the next parallel edges, which would pull
 /// Units     1/256 px
-/// Rounding  nearest; within a step of 1/1024 px of where the iteration leads, 20 steps at most
-/// Border    the outermost pixels have no gradient and do not count
-/// Time      the pixels of the disc, about 30 instructions each, in every step; three to five are usual
+/// Rounding  nearest; the last step is at most 1/1024 px
+/// Border    gradients are of 5x3 pixels; where they do not fit, pixels do not count
+/// Time      the pixels of the disc, about 40 instructions each, for every step: two to four for edges, and
+///           up to 20 more
 /// Errors    empty_image; bad_argument for a radius out of range; out_of_range for a start outside of the
-///           image; degenerate where gradients have one direction or none; not_found if the place is farther
-///           than half the radius from start, or does not come to rest
-/// Source    Foerstner and Guelch, "A fast operator for detection and precise location of distinct points,
-///           corners and centres of circular features", 1987; the toolkit's CornerSubpixel::Refine and OpenCV's
-///           cornerSubPix sample a square at fractions of pixels, with weights that do not end at 0. Here
-///           pixels count as they are, and a weight (1 - (distance / radius)^2)^2 moves with the place, so
-///           that nothing jumps where pixels enter
+///           image; degenerate where the surface is no saddle; not_found if the place is farther than half
+///           the radius from start, or does not come to rest
+/// Source    edges: Foerstner and Guelch, "A fast operator for detection and precise location of distinct
+///           points, corners and centres of circular features", 1987. The toolkit's CornerSubpixel::Refine and
+///           OpenCV's cornerSubPix sample a square at fractions of pixels, with weights that do not end at 0.
+///           Here pixels count as they are, smoothed so that the ends of edges do not pull to their centres,
+///           and the weight (1 - (distance / radius)^2)^2 moves with the place. Both places are the corner
+///           itself wherever the image is symmetric about it, whatever the blur
 inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
                                                  SubPixel radius);
 
@@ -63,6 +68,41 @@ namespace detail {
 struct SaddleSums {
     std::int64_t xx = 0, xy = 0, yy = 0;
     std::int64_t x = 0, y = 0;
+
+    void add(std::int64_t weight, int gx, int gy, std::int64_t dx, std::int64_t dy) {
+        const std::int64_t across = gx * dx + gy * dy;
+        xx += weight * (gx * gx);
+        xy += weight * (gx * gy);
+        yy += weight * (gy * gy);
+        x += weight * gx * across;
+        y += weight * gy * across;
+    }
+    /// The way to the place around which edges run, in 1/65536 px.
+    Status step(std::int64_t& step_x, std::int64_t& step_y) const;
+};
+
+/// Sums for the surface itself: gradients, their products with distances, and those of distances. Largest as
+/// above 2^56.
+struct SurfaceSums {
+    std::int64_t weights = 0;
+    std::int64_t gx = 0, gy = 0;
+    std::int64_t gx_x = 0, gx_y = 0, gy_x = 0, gy_y = 0;
+    std::int64_t xx = 0, xy = 0, yy = 0;
+
+    void add(std::int64_t weight, int at_x, int at_y, std::int64_t dx, std::int64_t dy) {
+        weights += weight;
+        gx += weight * at_x;
+        gy += weight * at_y;
+        gx_x += weight * at_x * dx;
+        gx_y += weight * at_x * dy;
+        gy_x += weight * at_y * dx;
+        gy_y += weight * at_y * dy;
+        xx += weight * dx * dx;
+        xy += weight * dx * dy;
+        yy += weight * dy * dy;
+    }
+    /// The way to where the mean gradient is 0 if the surface is of second order, in 1/65536 px.
+    Status step(std::int64_t& step_x, std::int64_t& step_y) const;
 };
 
 /// Gradients along a row, each of 5 by 3 pixels: a difference of two pixels after a mean of 1 2 1 by 1 2 1.
@@ -128,8 +168,9 @@ private:
     std::int64_t xx_ = 0, xy_ = 0, yy_ = 0;
 };
 
-inline SaddleSums saddle_sums(ImageView<const Gray8> src, FinePoint centre, const SaddleWeights& weights) {
-    SaddleSums sums;
+template <class Sums>
+Sums saddle_sums(ImageView<const Gray8> src, FinePoint centre, const SaddleWeights& weights) {
+    Sums sums;
     const auto first = [](FinePixel c, std::int32_t half) {
         return static_cast<int>(maximum<std::int64_t>((std::int64_t{c.raw()} - half * 256) >> 16, 2));
     };
@@ -149,17 +190,73 @@ inline SaddleSums saddle_sums(ImageView<const Gray8> src, FinePoint centre, cons
             gradients.next(gx, gy);
             const std::int64_t dx = round_shift((std::int64_t{x} << 16) - centre.x.raw(), 5);
             const std::int64_t part = weights.part(dx, dy);
-            if (part <= 0 || (gx | gy) == 0) continue;
-            const std::int64_t weight = (part * part) >> 10;
-            const std::int64_t across = gx * dx + gy * dy;
-            sums.xx += weight * (gx * gx);
-            sums.xy += weight * (gx * gy);
-            sums.yy += weight * (gy * gy);
-            sums.x += weight * gx * across;
-            sums.y += weight * gy * across;
+            if (part <= 0) continue;
+            sums.add((part * part) >> 10, gx, gy, dx, dy);
         }
     }
     return sums;
+}
+
+inline Status SaddleSums::step(std::int64_t& step_x, std::int64_t& step_y) const {
+    const Real a = Real::from_int(xx);
+    const Real b = Real::from_int(xy);
+    const Real c = Real::from_int(yy);
+    const Real size = a * c - b * b;
+    const Real half = (a + c).scaled(-1);
+    // The ratio of the eigenvalues of two edges that cross at an angle t is tan^2(t / 2).
+    if (half.zero() || size < (half * half).scaled(-6)) return Status::degenerate;
+    const Real to_x = Real::from_int(x);
+    const Real to_y = Real::from_int(y);
+    step_x = ((c * to_x - b * to_y) / size).rounded(5);
+    step_y = ((a * to_y - b * to_x) / size).rounded(5);
+    return Status::ok;
+}
+
+inline Status SurfaceSums::step(std::int64_t& step_x, std::int64_t& step_y) const {
+    // Second derivatives are M S^-1 with M = sum g d', S = sum d d'; the step is -S M^-1 of the mean gradient.
+    const Real a = Real::from_int(gx_x);
+    const Real b = Real::from_int(gx_y);
+    const Real c = Real::from_int(gy_x);
+    const Real d = Real::from_int(gy_y);
+    const Real size = a * d - b * c;
+    if (!size.negative()) return Status::degenerate;
+    const Real x = Real::from_int(gx);
+    const Real y = Real::from_int(gy);
+    const Real u = (b * y - d * x) / size;
+    const Real v = (c * x - a * y) / size;
+    const Real share = Real::from_int(1) / Real::from_int(weights);
+    step_x = ((Real::from_int(xx) * u + Real::from_int(xy) * v) * share).rounded(5);
+    step_y = ((Real::from_int(xy) * u + Real::from_int(yy) * v) * share).rounded(5);
+    return Status::ok;
+}
+
+/// Moves a place by the steps that sums ask for until one is below 1/1024 px; 20 at most.
+/// @param shrink  a step must be shorter than the one before by this factor, or it is no way to rest
+///
+/// Errors  as refine_saddle_point()
+template <class Sums>
+Result<FinePoint> follow_steps(ImageView<const Gray8> src, FinePoint first, const SaddleWeights& weights,
+                               std::int64_t reach, int shrink) {
+    FinePoint place = first;
+    std::int64_t before = shrink * reach;
+    for (int i = 0; i < 20; ++i) {
+        std::int64_t dx = 0;
+        std::int64_t dy = 0;
+        const Status status = saddle_sums<Sums>(src, place, weights).step(dx, dy);
+        if (status != Status::ok) return status;
+        dx = clamp<std::int64_t>(dx, -reach, reach);
+        dy = clamp<std::int64_t>(dy, -reach, reach);
+        const std::int64_t x = place.x.raw() + dx;
+        const std::int64_t y = place.y.raw() + dy;
+        const std::int64_t length = hypotenuse(dx, dy);
+        if (hypotenuse(x - first.x.raw(), y - first.y.raw()) > reach) return Status::not_found;
+        place = {FinePixel::from_raw(static_cast<std::int32_t>(x)),
+                 FinePixel::from_raw(static_cast<std::int32_t>(y))};
+        if (length <= 64) return place;
+        if (shrink > 1 && length * shrink > before) return Status::not_found;
+        before = length;
+    }
+    return Status::not_found;
 }
 
 /// Whether radii are in range, and the window is not too thin.
@@ -177,6 +274,8 @@ constexpr bool is_valid(const SaddleWindow& w) {
 
 inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
                                                  SubPixel radius) {
+    if (src.empty()) return Status::empty_image;
+    if (radius < min_saddle_radius) return Status::bad_argument;
     return refine_saddle_point(src, start, {{radius, {}}, {{}, radius}});
 }
 
@@ -188,38 +287,17 @@ inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, Sub
     if (outside(start.x, src.width()) || outside(start.y, src.height())) return Status::out_of_range;
 
     const FinePoint first{start.x.convert<FinePixel>(), start.y.convert<FinePixel>()};
-    FinePoint place = first;
     const detail::SaddleWeights weights(window);
     // Half of the shorter way, in 1/65536 px.
     const std::int64_t reach = minimum(hypotenuse(window.u.x.raw(), window.u.y.raw()),
                                        hypotenuse(window.v.x.raw(), window.v.y.raw()))
                                << 7;
-    for (int i = 0; i < 20; ++i) {
-        const detail::SaddleSums sums = detail::saddle_sums(src, place, weights);
-        const Real xx = Real::from_int(sums.xx);
-        const Real xy = Real::from_int(sums.xy);
-        const Real yy = Real::from_int(sums.yy);
-        const Real size = xx * yy - xy * xy;
-        const Real half = (xx + yy).scaled(-1);
-        // The ratio of the eigenvalues of two edges that cross at an angle a is tan^2(a / 2).
-        if (half.zero() || size < (half * half).scaled(-6)) return Status::degenerate;
-        const Real x = Real::from_int(sums.x);
-        const Real y = Real::from_int(sums.y);
-        const std::int64_t dx = ((yy * x - xy * y) / size).rounded(5);
-        const std::int64_t dy = ((xx * y - xy * x) / size).rounded(5);
-        const std::int64_t to_x = place.x.raw() + clamp<std::int64_t>(dx, -reach, reach);
-        const std::int64_t to_y = place.y.raw() + clamp<std::int64_t>(dy, -reach, reach);
-        if (hypotenuse(to_x - first.x.raw(), to_y - first.y.raw()) > reach) return Status::not_found;
-        place = {FinePixel::from_raw(static_cast<std::int32_t>(to_x)),
-                 FinePixel::from_raw(static_cast<std::int32_t>(to_y))};
-        const auto still = [](std::int64_t d) { return d >= -64 && d <= 64; };
-        if (still(dx) && still(dy)) {
-            const SubPixelPoint answer{place.x.convert<SubPixel>(), place.y.convert<SubPixel>()};
-            if (outside(answer.x, src.width()) || outside(answer.y, src.height())) return Status::not_found;
-            return answer;
-        }
-    }
-    return Status::not_found;
+    Result<FinePoint> place = detail::follow_steps<detail::SaddleSums>(src, first, weights, reach, 3);
+    if (!place) place = detail::follow_steps<detail::SurfaceSums>(src, first, weights, reach, 1);
+    if (!place) return place.status();
+    const SubPixelPoint answer{place->x.convert<SubPixel>(), place->y.convert<SubPixel>()};
+    if (outside(answer.x, src.width()) || outside(answer.y, src.height())) return Status::not_found;
+    return answer;
 }
 
 }  // namespace fovea
