@@ -47,7 +47,8 @@ struct CameraFile {
     std::string problem;  ///< "" if the file is good
 
     bool stereo() const { return cameras.size() == 2; }
-    /// From the first camera's coordinates to the second's, to the last digit of the file if it says just that.
+    /// From the first camera's coordinates to the second's, to the last digit of the file if it says just
+    ///      that.
     Pose<> right_from_left() const {
         const Pose<>& left = cameras[0].pose;
         if (left.rotation == Matrix<3, 3>::identity() && left.translation == Vector<3>())

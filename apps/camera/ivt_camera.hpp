@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The text format of the IVT: how many cameras; for each width and height, its matrix, four terms of the lens,
-// rotation and translation; for two cameras the corners of the rectified images and the homographies that lead
-// from rectified to undistorted pixels.
+// The text format of the IVT: how many cameras; for each width and height, its matrix, four terms of the
+// lens, rotation and translation; for two cameras the corners of the rectified images and the homographies
+// that lead from rectified to undistorted pixels.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,8 @@ namespace fovea::apps {
 /// from the rest.
 CameraFile read_camera_ivt(const std::string& text);
 
-/// Writes one; for two cameras with the homographies from rectified to undistorted pixels of each. Call it for
+/// Writes one; for two cameras with the homographies from rectified to undistorted pixels of each. Call it
+///        for
 /// files of which ivt_refusal() says nothing.
 std::string camera_ivt(const CameraFile& file, const Matrix<3, 3> (&rectified)[2]);
 
@@ -149,7 +150,8 @@ inline std::string camera_ivt(const CameraFile& file, const Matrix<3, 3> (&recti
         text += "\n";
     }
     if (!file.stereo()) return text;
-    // Where the corners of a rectified image come from, as the toolkit has them: (0, 0), (w, 0), (w, h), (0, h).
+    // Where the corners of a rectified image come from, as the toolkit has them: (0, 0), (w, 0), (w, h), (0,
+    // h).
     for (std::size_t i = 0; i < 2; ++i) {
         text += "\n";
         const Size size = file.cameras[i].size;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// OpenCV's YAML, as its samples write calibrations: camera_matrix and distortion_coefficients of one camera, M1
-// D1 M2 D2 with R and T of a pair. The pair's two files may stand behind each other in one text. Files of ROS
-// have the names of one camera, too.
+// OpenCV's YAML, as its samples write calibrations: camera_matrix and distortion_coefficients of one camera,
+// M1 D1 M2 D2 with R and T of a pair. The pair's two files may stand behind each other in one text. Files of
+// ROS have the names of one camera, too.
 #pragma once
 
 #include <cstddef>

@@ -22,6 +22,7 @@
 #include <fovea/measure/edge_probe.hpp>
 #include <fovea/motion/block_motion.hpp>
 #include <fovea/segment/connected_components.hpp>
+#include <fovea/warp/remap.hpp>
 
 using namespace fovea;
 
@@ -76,6 +77,8 @@ int main() {
         {"block_motion, blocks of 16", [](Size size) { return block_motion_scratch(size, 16); }},
         {"read_bars", read_bars_scratch},
         {"BarStream", [](Size size) { return bar_stream_scratch(size.width); }},
+        {"the grid of an undistortion map",
+         [](Size size) { return map_grid_size(size).area() * static_cast<std::int64_t>(sizeof(MapPoint)); }},
         {"edge_probe", [](Size size) { return std::int64_t{2} * edge_probe_scratch(size); }},
         {"find_parts", [](Size size) { return find_parts_scratch(size, {}); }},
         {"find_parts after an opening", [&](Size size) { return find_parts_scratch(size, opened); }},

@@ -85,8 +85,8 @@ TEST_F(CameraCommands, UndistortTakesEachPixelFromWhereTheLensPutIt) {
             const double u = (x - 59.5) / 100, v = (y - 44.5) / 100;
             const double r = 1 - 0.2 * (u * u + v * v);
             const double from_x = 59.5 + 100 * u * r, from_y = 44.5 + 100 * v * r;
-            // The pictures are ramps, so that bilinear mixing gives the place itself; 0.5 for its rounding and as
-            // much for that of the level.
+            // The pictures are ramps, so that bilinear mixing gives the place itself; 0.5 for its rounding
+            // and as much for that of the level.
             ASSERT_NEAR(gray.view()(x, y), from_x + from_y, 0.52);
             ASSERT_NEAR(colour.view()(x, y).red, from_x, 0.52);
             ASSERT_NEAR(colour.view()(x, y).green, from_y, 0.52);

@@ -43,7 +43,8 @@ Picture<Gray8> warped(const Picture<Gray8>& picture, const PictureMap& map) {
     return result;
 }
 
-/// How far the dark gap between two doors near x = 540 is from a straight line, as the root of the mean square.
+/// How far the dark gap between two doors near x = 540 is from a straight line, as the root of the mean
+///     square.
 double gap_off_line(const Picture<Gray8>& picture, int from_x, int to_x, int rows) {
     std::vector<double> places;
     for (int y = 0; y < rows; ++y) {

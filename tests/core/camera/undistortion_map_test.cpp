@@ -117,8 +117,8 @@ TEST(UndistortionMap, IsWithinATenThousandthOfAPixel) {
 }
 
 TEST(UndistortionMap, EndsWhereTheFieldEnds) {
-    // The lens folds back beyond 42 degrees; the view looks 70 degrees to each side. The other view looks past
-    // its own horizon.
+    // The lens folds back beyond 42 degrees; the view looks 70 degrees to each side. The other view looks
+    // past its own horizon.
     const Camera<> wide = pinhole(120, 320, 240);
     const Numbers folding{500, 500, 320, 240, -0.4, 0, 0, 0, 0};
     EXPECT_LT(error_of(folding, straight, wide, {640, 480}, 5), 1e-4);

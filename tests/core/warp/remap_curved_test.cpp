@@ -26,7 +26,8 @@ long double curve(const long double (&at)[4], const bool (&there)[4], long doubl
     return at[1] + (at[2] - at[1]) * t - t * (1 - t) * bend / 4;
 }
 
-/// What stands in the comment of remap_curved_grid(), with floats: the place before it is rounded, in 1/256 px.
+/// What stands in the comment of remap_curved_grid(), with floats: the place before it is rounded, in 1/256
+///      px.
 bool place_of(ImageView<const MapPoint> grid, int x, int y, bool of_x, long double& place) {
     const int left = std::min(x / 16, grid.width() - 2);
     const int top = std::min(y / 16, grid.height() - 2);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any bytes as a calibration of a chip, as they come and with a right head and checksum: what is refused changes
-// nothing, what is read is written as the same bytes, and a map can be asked of it.
+// Any bytes as a calibration of a chip, as they come and with a right head and checksum: what is refused
+// changes nothing, what is read is written as the same bytes, and a map can be asked of it.
 #include <cstddef>
 #include <cstdint>
 #include <vector>

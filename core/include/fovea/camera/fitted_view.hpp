@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Views: which pinhole shows what a camera saw. Undistorted, an image is no rectangle any more; a view keeps all
-// of it, or as much as leaves no pixel empty. Book sec. 2.10.3.
+// Views: which pinhole shows what a camera saw. Undistorted, an image is no rectangle any more; a view keeps
+// all of it, or as much as leaves no pixel empty. Book sec. 2.10.3.
 #pragma once
 
 #include <fovea/base/status.hpp>

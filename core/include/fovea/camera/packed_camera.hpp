@@ -35,10 +35,10 @@ constexpr std::ptrdiff_t packed_camera_bytes(int cameras);
 
 /// Writes cameras as bytes, and answers how many.
 ///
-/// Format  magic, version (1 byte), cameras (1), length of all (2), for each camera width and height (2 each) and
-///         fx fy cx cy k1 k2 k3 p1 p2, for two the rotation row by row and the translation, CRC-32 of all before
-///         it (4). A number has 10 bytes: 64 bits of mantissa m and 16 bits e; it is m 2^((e >> 1) - 16384 - 63),
-///         negative if e is odd; 0 is ten bytes 0. Of all, the low byte comes first
+/// Format  magic, version (1 byte), cameras (1), length of all (2), for each camera width and height (2 each)
+///         and fx fy cx cy k1 k2 k3 p1 p2, for two the rotation row by row and the translation, CRC-32 of all
+///         before it (4). A number has 10 bytes: 64 bits of mantissa m and 16 bits e; it is m 2^((e >> 1) -
+///         16384 - 63), negative if e is odd; 0 is ten bytes 0. Of all, the low byte comes first
 /// Errors  bad_argument for cameras that unpack_cameras() would not take; buffer_too_small
 /// Source  numbers as they are, so that a chip calculates with the digits of the desk
 constexpr Result<std::ptrdiff_t> pack_cameras(const CameraSet& set, Span<std::uint8_t> out);

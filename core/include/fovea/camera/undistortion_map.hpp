@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Undistortion maps: for each pixel of a pinhole's picture the place in the picture of a real camera. Made row
-// by row in integers. Book sec. 2.2.4, 2.9.2 and 2.10.3.
+// Undistortion maps: for each pixel of a pinhole's picture the place in the picture of a real camera. Made
+// row by row in integers. Book sec. 2.2.4, 2.9.2 and 2.10.3.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,8 @@ public:
     /// The size of the output.
     constexpr Size size() const { return size_; }
 
-    /// Where the pixels (0, y), (1, y), ... of the output come from; no_fine_point where the lens says nothing,
+    /// Where the pixels (0, y), (1, y), ... of the output come from; no_fine_point where the lens says
+    ///       nothing,
     /// and beyond 32767 px.
     ///
     /// Shapes    y and places.size() may go up to 15 px beyond the output, as grids do
@@ -82,13 +83,14 @@ private:
 /// A map for the picture that a pinhole would take in place of a camera.
 ///
 /// Shapes    output 1x1 to 32767x32767
-/// Units     rotation leads from the camera's coordinates to those of the view; the identity undistorts. Of the
-///           view focal lengths and principal point count, its lens does not
+/// Units     rotation leads from the camera's coordinates to those of the view; the identity undistorts. Of
+///           the view focal lengths and principal point count, its lens does not
 /// Range     the map ends where the lens's field does, and before that where its terms add up to 6 or a focal
 ///           length times the radius is 32768 px: far outside of what was calibrated
 /// Errors    empty_image, image_too_large; bad_argument for focal lengths that are not above 0, and for a
-///           rotation that is none to 2^-20; out_of_range where the view sees nothing of the lens's field, and
-///           for absurd numbers: principal points beyond 32768 px, rays of a pixel beyond 2^16 of that field
+///           rotation that is none to 2^-20; out_of_range where the view sees nothing of the lens's field,
+///           and for absurd numbers: principal points beyond 32768 px, rays of a pixel beyond 2^16 of that
+///           field
 /// Source    book eq. 2.8, 2.9 and sec. 2.10.3. The toolkit keeps 20 bytes a pixel, this 128 in all
 template <class Scalar>
 constexpr Result<UndistortionMap> undistortion_map(const LensInverse<Scalar>& lens,
@@ -106,8 +108,8 @@ constexpr Status undistortion_points(const UndistortionMap& map, ImageView<MapPo
 /// The map for remap_curved_grid(): a place for every 16th column and row.
 ///
 /// Shapes    grid map_grid_size(map.size())
-/// Rounding  to 1/256 px. With lenses of 4 mm at 640x480 remap_curved_grid() meets the map within 1/100 px and
-///           remap_grid() within 1/8; undistortion_grid_error() measures it
+/// Rounding  to 1/256 px. With lenses of 4 mm at 640x480 remap_curved_grid() meets the map within 1/100 px
+///           and remap_grid() within 1/8; undistortion_grid_error() measures it
 /// Errors    empty_image, size_mismatch
 /// Source    UndistortionMap
 constexpr Status undistortion_grid(const UndistortionMap& map, ImageView<MapPoint> grid);

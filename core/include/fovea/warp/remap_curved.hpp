@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Remap by a grid that is interpolated along parabolas: for maps that bend, such as those of lenses. Book sec.
-// 2.9.
+// Remap by a grid that is interpolated along parabolas: for maps that bend, such as those of lenses. Book
+// sec. 2.9.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,8 @@ inline namespace FOVEA_ISA {
 /// Rounding  down a column to 2^-13 px, along a row to 1/256 px, ties up. Where third differences over 16 px
 ///           are e, the map is met to e / 60 each way, and to 1/200 px for the formats' roundings
 /// Border    as sampling says; its level where one of the four points around is no_map_point. Further points
-///           that are no_map_point or not in the grid bend nothing: the bend of the other side stands for both
+///           that are no_map_point or not in the grid bend nothing: the bend of the other side stands for
+///           both
 /// Others    as remap()
 /// Errors    empty_image, size_mismatch, image_too_large
 /// Source    at the share t of the way from a to b: a + (b - a) t - t (1 - t) (f - a - b + g) / 4, f before a

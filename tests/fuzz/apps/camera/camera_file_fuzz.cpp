@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any bytes as a calibration in each format: a problem has words and a place; what is read can be written, and is
-// the same when it is read again.
+// Any bytes as a calibration in each format: a problem has words and a place; what is read can be written,
+// and is the same when it is read again.
 #include <cstddef>
 #include <cstdint>
 #include <string>
