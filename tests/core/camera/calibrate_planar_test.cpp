@@ -283,6 +283,11 @@ TEST(CalibratePlanar, RefusesParallelViews) {
             }
             scene.collect();
             expect_refused(scene.span(), CalibrationProblem::parallel_views, -1, scene.picture);
+            if (tilt > 0) continue;
+            // From the front not even a focal length is told.
+            IntrinsicsOptions held;
+            held.principal_point = PrincipalPoint::held;
+            expect_refused(scene.span(), CalibrationProblem::parallel_views, -1, scene.picture, held);
         }
     // The same photo again and again.
     const auto views = chessboard(corners.left);

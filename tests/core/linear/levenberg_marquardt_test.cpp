@@ -108,6 +108,11 @@ TEST(LevenbergMarquardt, ItsAnswerIsTheBottomAndTheSameInLongDouble) {
         // Both stop where a step would lower the cost by less than 2^-68: within 2^-33 standard deviations.
         EXPECT_NEAR(static_cast<double>(value_of(state[0])), static_cast<double>(other[0]), 1e-10);
         EXPECT_NEAR(static_cast<double>(value_of(state[1])), static_cast<double>(other[1]), 1e-10);
+        // Another step would gain no more than the last.
+        NormalEquations<2> equations;
+        ASSERT_EQ(problem.linearise(state, equations), Status::ok);
+        const Real gain = dot(equations.gradient, *equations.inverse() * equations.gradient);
+        EXPECT_LE(gain, done->cost.scaled(-68));
         // No neighbour is lower.
         for (const int bits : {-12, -20, -24})
             for (int way = 0; way < 4; ++way) {

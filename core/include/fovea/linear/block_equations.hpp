@@ -32,7 +32,7 @@ inline constexpr int residuals_together = 16;
 ///
 /// Scratch   block_equations_scratch<Own>(shared, views) scalars, block_equations_words<Own>(shared) words
 /// Rounding  sums in the order in which residuals are added. Of Real, the sums over 16 residuals of a view
-///           are exact, of derivatives that are rounded to 2^-61 of the largest by the same unknown among them
+///           are exact, of derivatives that are rounded to 2^-61 of the largest by the same unknown there
 /// Source    Schur complement; Triggs et al., "Bundle Adjustment - A Modern Synthesis", 1999, section 6.1
 template <int Own, class Scalar = Real>
 class BlockEquations {
