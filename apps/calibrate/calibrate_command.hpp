@@ -96,7 +96,7 @@ private:
     }
     /// Why these pictures are none to calibrate from; "" if they are.
     std::string boards_problem(const std::vector<SeenBoard>& boards) {
-        if (const std::string problem = sizes_problem(boards); !problem.empty()) return problem;
+        if (std::string problem = sizes_problem(boards); !problem.empty()) return problem;
         if (std::any_of(boards.begin(), boards.end(), [](const SeenBoard& board) { return board.found; }))
             return "";
         const Size other = likely_board();

@@ -87,8 +87,7 @@ struct CalibrateOptions {
 
 namespace detail {
 
-/// Takes the pictures behind --left and --right out of the words, and makes --out of -o. What is left is for
-/// Arguments.
+/// Takes the pictures behind --left and --right out of the words. What is left is for Arguments.
 inline std::vector<std::string> take_lists(const std::vector<std::string>& words,
                                            std::vector<std::string>& left, std::vector<std::string>& right) {
     std::vector<std::string> rest;
@@ -116,7 +115,7 @@ inline std::vector<std::string> take_lists(const std::vector<std::string>& words
             if (std::find(rest.begin(), rest.end(), start) == rest.end()) rest.push_back(start);
             if (word != name) add(word.substr(start.size()));
         }
-        if (list == nullptr) rest.push_back(word == "-o" ? "--out" : word);
+        if (list == nullptr) rest.push_back(word);
     }
     return rest;
 }

@@ -96,7 +96,7 @@ inline std::string human_estimate(const std::string& who, const std::vector<Seen
            std::to_string(points) + " corners\n" +
            human_camera(found.camera, found.deviation, estimate.picture, lens) + "  rms " +
            number(found.rms, 3) +
-           " px: so far from where this camera would see it a corner is seen, on average\n\n" +
+           " px: how far corners are, on average, from where this camera would see them\n\n" +
            detail::table_of_views(boards, estimate.views);
 }
 

@@ -18,8 +18,8 @@
 
 namespace fovea::test {
 
-/// Where a board is: its middle in mm, and twice the tangents of half its turns in hundredths; and how far off
-/// its corners are seen, at most, in 1/256 px.
+/// Where a board is: its middle in mm, and twice the tangents of half its turns in hundredths; and how far
+/// off its corners are seen, at most, in 1/256 px.
 struct BoardStand {
     int x, y, z;
     int turn_x, turn_y, turn_z;

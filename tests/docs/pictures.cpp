@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The pictures of docs/operators and of docs/calibrate.md, made with fovea's own operators; the same bytes on every machine. After a
-// change: build/host/tests/pictures docs/pictures
+// The pictures of docs/operators and of docs/calibrate.md, made with fovea's own operators; the same bytes on
+// every machine. After a change: build/host/tests/pictures docs/pictures
 
 #include <cstdint>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Pictures of a checkerboard as a pinhole of known place sees it, rendered quickly: for what `fovea calibrate`
-// says of them. Host tests only.
+// Pictures of a checkerboard as a pinhole of known place sees it, rendered quickly: for what is said of them
+// by `fovea calibrate`. Host tests only.
 #pragma once
 
 #include <array>

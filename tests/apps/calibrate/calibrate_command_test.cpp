@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <calibrate/calibrate_command.hpp>
 #include <camera/load_camera.hpp>
+#include <support/command_calibrate.hpp>
 #include <support/json.hpp>
 #include <support/picture.hpp>
 #include <support/test_io.hpp>
@@ -319,8 +319,8 @@ TEST_F(CalibrateCommand, CalibratesAPairAndTellsHowItsCamerasStand) {
     for (std::size_t i = 0; i < 3; ++i) {
         const double deviation = result["translation_deviation_mm"].items[i].number();
         EXPECT_GT(deviation, 0);
-        // Held cameras bring their own errors: that of the focal length moves boards, which are 300 mm away, by
-        // its share of their distance, in each of both.
+        // Held cameras bring their own errors: that of the focal length moves boards, which are 300 mm away,
+        // by its share of their distance, in each of both.
         double held = 0;
         for (const char* side : {"left", "right"})
             held += 300 * result[side]["deviations"]["fx"].number() / result[side]["camera"]["fx"].number();
@@ -341,6 +341,31 @@ TEST_F(CalibrateCommand, CalibratesAPairAndTellsHowItsCamerasStand) {
     EXPECT_EQ(run(board + lists), apps::exit_ok);
     EXPECT_NE(io.out.find("\nboth, from "), std::string::npos) << io.out;
     EXPECT_NE(io.out.find("  the right camera is 1"), std::string::npos) << io.out;
+}
+
+TEST_F(CalibrateCommand, KnowsWhichEndOfABoardIsSeenThatLooksTheSameTurned) {
+    // The right camera is turned by 2 degrees, so that it sees boards the other way up that lie across.
+    const RenderedBoard alike{7, 5, 12};
+    Words lists[2];
+    for (std::size_t i = 0; i < 8; ++i) {
+        BoardPlace place = good_places()[i];
+        place.about_z = i % 2 == 0 ? 89 : 20;
+        for (const char* side : {"l", "r"}) {
+            lists[side[0] == 'r' ? 1 : 0].push_back(side + std::to_string(i));
+            put_picture(io, side + std::to_string(i), render_board({}, place, alike));
+            const double turn = 2 * 3.14159265358979323846 / 180;
+            const double x = place.x * std::cos(turn) - place.y * std::sin(turn);
+            place.y = place.x * std::sin(turn) + place.y * std::cos(turn);
+            place.x = x;
+            place.about_z += 2;
+        }
+    }
+    run(Words{"--board", "7x5", "--square", "12", "--json", "--left"} + lists[0] + Words{"--right"} +
+        lists[1]);
+    const Json result = parse_json(lines_of(io.out).back()).value_or(Json());
+    EXPECT_EQ(result["views_used"].text, "8");
+    EXPECT_LT(result["rms_px"].number(), 0.2) << io.errors();
+    EXPECT_NEAR(result["rotation"].items[3].number(), std::sin(2 * 3.14159265358979323846 / 180), 0.002);
 }
 
 TEST_F(CalibrateCommand, TakesListsOfAPairInManyForms) {
@@ -440,6 +465,20 @@ TEST_F(CalibrateCommand, SaysWhatIsWrongWithItsWords) {
     refuses(board + one + Words{"--bord", "7x6"}, "unknown option --bord; did you mean --board?");
     EXPECT_EQ(run({"--help"}), apps::exit_ok);
     EXPECT_EQ(io.out.compare(0, 37, "usage: fovea calibrate [options] --bo"), 0);
+}
+
+TEST(CalibrationBoard, HasItsPointsRowByRow) {
+    apps::Board board;
+    board.size = {3, 2};
+    board.square_um = 10;
+    EXPECT_EQ(board.points(),
+              (std::vector<PlanePoint>{{0, 0}, {10, 0}, {20, 0}, {0, 10}, {10, 10}, {20, 10}}));
+    EXPECT_FALSE(board.symmetric());
+    board.pattern = apps::BoardPattern::circles;
+    EXPECT_TRUE(board.symmetric());
+    board.pattern = apps::BoardPattern::asymmetric_circles;
+    EXPECT_EQ(board.points(),
+              (std::vector<PlanePoint>{{0, 0}, {20, 0}, {40, 0}, {10, 10}, {30, 10}, {50, 10}}));
 }
 
 /// The board of OpenCV's pictures, with corners of our own: at or below the rms of OpenCV's.

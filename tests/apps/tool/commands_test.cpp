@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <support/command_calibrate.hpp>
 #include <support/commands.hpp>
 #include <support/test_io.hpp>
 #include <tool/commands.hpp>
