@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/board_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
 #include <golden/code_blur_vectors.hpp>
@@ -126,6 +127,8 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"camera/checkerboard", camera_checkerboard},
+    {"camera/circle_grid", camera_circle_grid},
     {"camera/lens", camera_lens},
     {"camera/poses", camera_poses},
     {"code/blurred_ean", code_blurred_ean},

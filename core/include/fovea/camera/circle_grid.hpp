@@ -216,7 +216,7 @@ private:
             for (int s = 0; s < spot_count_; ++s) {
                 if (s == seed || !alike(seed, s)) continue;
                 const BoardVector to = centre(s) - centre(seed);
-                const std::int64_t square = dot(to, to);
+                const std::int64_t square = inner_product(to, to);
                 if (square >= least || square == 0 || !allowed(to)) continue;
                 best = s;
                 least = square;
@@ -227,7 +227,7 @@ private:
         if (a < 0) return false;
         const BoardVector u = centre(a) - centre(seed);
         b = nearest([&](BoardVector v) {
-            const std::int64_t area = cross(u, v);
+            const std::int64_t area = cross_product(u, v);
             return 3 * (area < 0 ? -area : area) >= std::int64_t{u.length()} * v.length();
         });
         return b >= 0;
@@ -235,7 +235,7 @@ private:
     void grow(int seed, int a, int b) {
         BoardVector u = centre(a) - centre(seed);
         BoardVector v = centre(b) - centre(seed);
-        if (cross(u, v) < 0) v = -v;
+        if (cross_product(u, v) < 0) v = -v;
         lattice_.start(centre(seed), u, v, seed);
         lattice_.grow([&](LatticePlace at, LatticePlace from, BoardVector expected) {
             const int near = minimum(lattice_.step(from, 0).length(), lattice_.step(from, 1).length());
@@ -243,7 +243,7 @@ private:
             int best = -1;
             for (int s = 0; s < spot_count_; ++s) {
                 const BoardVector off = centre(s) - expected;
-                const std::int64_t square = dot(off, off);
+                const std::int64_t square = inner_product(off, off);
                 if (square >= least || !alike(s, lattice_.item(from))) continue;
                 best = s;
                 least = square;

@@ -61,18 +61,26 @@ inline Result<CircleSpot> circle_spot(const Region& region) {
 /// Errors  not_found where there is no step of least_contrast from the ground to the spot
 inline Result<BoardVector> spot_centre(ImageView<const Gray8> src, const CircleSpot& spot, bool bright,
                                        int least_contrast) {
-    const std::int64_t size = spot.xx * spot.yy - spot.xy * spot.xy;
+    // Moments of 16 bits, of distances in 1/16 px: products stay below 2^46.
+    int drop = 0;
+    while (maximum(spot.xx, spot.yy) >> drop >= 1 << 16) ++drop;
+    const std::int64_t xx = spot.xx >> drop;
+    const std::int64_t xy = spot.xy >> drop;
+    const std::int64_t yy = spot.yy >> drop;
+    const std::int64_t size = xx * yy - xy * xy;
     if (size <= 0) return Status::not_found;
-    // d' M^-1 d in 1/256, of d in 1/256 px.
+    // What distance() is where d' M^-1 d is so many 1/256; that is below 2^12, and drop below 13.
+    const auto limit = [&](std::int64_t share) { return (share * size * (std::int64_t{1} << drop)) >> 8; };
     const auto distance = [&](std::int64_t dx, std::int64_t dy) {
-        return (spot.yy * dx * dx - 2 * spot.xy * dx * dy + spot.xx * dy * dy) / size;
+        return yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy;
     };
     // The ring outside: half as wide again as the spot, and a pixel and a half more for blur.
     const std::int64_t least = maximum<std::int64_t>(minimum(spot.xx, spot.yy), 256);
     const int thin = static_cast<int>(isqrt(static_cast<std::uint64_t>(least * 256)));
     const std::int64_t share = 333 + 384 * 256 / maximum(thin, 256);
-    const std::int64_t inner = share * share / 256;
-    const std::int64_t outer = (share + 64) * (share + 64) / 256;
+    const std::int64_t core = limit(64);
+    const std::int64_t inner = limit(share * share / 256);
+    const std::int64_t outer = limit((share + 64) * (share + 64) / 256);
     const auto reach = [&](std::int64_t moment) {
         return static_cast<int>((isqrt(static_cast<std::uint64_t>(moment * 256)) * (share + 64) / 256 + 255) /
                                 256);
@@ -89,7 +97,8 @@ inline Result<BoardVector> spot_centre(ImageView<const Gray8> src, const CircleS
     const auto for_each = [&](auto take) {
         for (int row = top; row <= bottom; ++row)
             for (int column = left; column <= right; ++column) {
-                const std::int64_t d = distance(column * 256 - spot.centre.x, row * 256 - spot.centre.y);
+                const std::int64_t d =
+                    distance((column * 256 - spot.centre.x) >> 4, (row * 256 - spot.centre.y) >> 4);
                 if (d <= outer) take(column, row, d);
             }
     };
@@ -98,7 +107,7 @@ inline Result<BoardVector> spot_centre(ImageView<const Gray8> src, const CircleS
         if (d > inner) {
             ground += src(column, row);
             ++ground_count;
-        } else if (d < 64) {
+        } else if (d < core) {
             middle += src(column, row);
             ++middle_count;
         }
@@ -107,10 +116,11 @@ inline Result<BoardVector> spot_centre(ImageView<const Gray8> src, const CircleS
     const std::int64_t base = ground * 256 / ground_count;
     const std::int64_t step = middle * 256 / middle_count - base;
     if ((bright ? step : -step) < least_contrast * 256) return Status::not_found;
+    const std::int64_t scale = (std::int64_t{1} << 25) / step;
     std::int64_t weights = 0, sum_x = 0, sum_y = 0;
     for_each([&](int column, int row, std::int64_t d) {
         if (d > inner) return;
-        const std::int64_t part = (src(column, row) * 256 - base) * 512 / step - 128;
+        const std::int64_t part = (((src(column, row) * 256 - base) * scale) >> 16) - 128;
         const std::int64_t weight = clamp<std::int64_t>(part, 0, 256);
         weights += weight;
         sum_x += weight * (column - x);
