@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/board_vectors.hpp>
 #include <golden/calibration_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
@@ -135,6 +136,8 @@ inline constexpr Vector vectors[] = {
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
     {"camera/calibrate_planar", camera_calibrate_planar},
+    {"camera/checkerboard", camera_checkerboard},
+    {"camera/circle_grid", camera_circle_grid},
     {"camera/lens", camera_lens},
     {"camera/packed", camera_packed},
     {"camera/poses", camera_poses},

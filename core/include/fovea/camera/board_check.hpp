@@ -52,7 +52,7 @@ inline bool is_even(const BoardPlaces& places) {
     const auto even = [](BoardVector a, BoardVector b, BoardVector c) {
         const BoardVector way = c - a;
         const BoardVector off = a + c - 2 * b;
-        return 25 * dot(off, off) <= dot(way, way);
+        return 25 * inner_product(off, off) <= inner_product(way, way);
     };
     for (int r = 0; r < places.rows(); ++r)
         for (int c = 0; c < places.columns(); ++c) {

@@ -36,11 +36,11 @@ struct BoardVector {
     constexpr int length() const { return static_cast<int>(hypotenuse(x, y)); }
 };
 constexpr BoardVector board_vector(SubPixelPoint p) { return {p.x.raw(), p.y.raw()}; }
-constexpr std::int64_t dot(BoardVector a, BoardVector b) {
+constexpr std::int64_t inner_product(BoardVector a, BoardVector b) {
     return std::int64_t{a.x} * b.x + std::int64_t{a.y} * b.y;
 }
 /// Positive where b is turned from a as y is from x.
-constexpr std::int64_t cross(BoardVector a, BoardVector b) {
+constexpr std::int64_t cross_product(BoardVector a, BoardVector b) {
     return std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
 }
 

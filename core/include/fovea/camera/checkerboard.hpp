@@ -190,10 +190,10 @@ private:
         bool found = false;
         for (const SaddleCandidate& other : all_) {
             const BoardVector to = other.place() - seed.place();
-            const std::int64_t square = dot(to, to);
+            const std::int64_t square = inner_product(to, to);
             if (square >= nearest || square < 3 * 3 * 65536) continue;
-            const std::int64_t forth = dot(to, along);
-            const std::int64_t off = cross(to, along);
+            const std::int64_t forth = inner_product(to, along);
+            const std::int64_t off = cross_product(to, along);
             const std::int64_t far = forth < 0 ? -forth : forth;
             if ((off < 0 ? -off : off) * 3 > far) continue;
             if (field_.along({other.x, other.y}, seed.a, seed.b) >= 0) continue;
@@ -231,7 +231,7 @@ private:
             if (other.used) continue;
             for (int m = 0; m < lattice_.size() && !other.used; ++m) {
                 const BoardVector off = other.place() - lattice_.place(lattice_.member(m));
-                other.used = dot(off, off) < 3 * 3 * 65536;
+                other.used = inner_product(off, off) < 3 * 3 * 65536;
             }
         }
     }
@@ -322,7 +322,8 @@ private:
         return Status::ok;
     }
     SubPixelPoint clamped(BoardVector p) const {
-        return BoardVector{clamp(p.x, 0, (src_.width() - 1) * 256), clamp(p.y, 0, (src_.height() - 1) * 256)}
+        return BoardVector{clamp<std::int32_t>(p.x, 0, (src_.width() - 1) * 256),
+                           clamp<std::int32_t>(p.y, 0, (src_.height() - 1) * 256)}
             .point();
     }
     /// Almost half of the squares around a corner: outer ones may be cut off there. More of small ones, and no
@@ -330,7 +331,7 @@ private:
     SaddleWindow window_at(LatticePlace at) const {
         const BoardVector u = lattice_.step(at, 0);
         const BoardVector v = lattice_.step(at, 1);
-        const std::int64_t area = cross(u, v);
+        const std::int64_t area = cross_product(u, v);
         const int longer = maximum(maximum(u.length(), v.length()), 1);
         const std::int64_t height = maximum<std::int64_t>((area < 0 ? -area : area) / longer, 1);
         // In 1/256 of the ways.

@@ -147,8 +147,8 @@ public:
 
     /// The grey level at a place, in 1/256; outside of the image the outermost pixels repeat.
     int level(BoardVector p) const {
-        const int x = clamp(p.x, 0, (image_.width() - 1) * 256);
-        const int y = clamp(p.y, 0, (image_.height() - 1) * 256);
+        const int x = clamp<std::int32_t>(p.x, 0, (image_.width() - 1) * 256);
+        const int y = clamp<std::int32_t>(p.y, 0, (image_.height() - 1) * 256);
         const int left = x >> 8;
         const int top = y >> 8;
         const int right = x & 255;
