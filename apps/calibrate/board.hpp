@@ -38,7 +38,10 @@ struct Board {
         return all;
     }
     /// Whether the board looks the same when it is turned by half.
-    bool symmetric() const { return pattern == BoardPattern::circles || size.width % 2 == size.height % 2; }
+    bool symmetric() const {
+        if (pattern == BoardPattern::asymmetric_circles) return size.height % 2 == 0;
+        return pattern == BoardPattern::circles || size.width % 2 == size.height % 2;
+    }
 };
 
 inline const char* what_is_seen(BoardPattern pattern) {

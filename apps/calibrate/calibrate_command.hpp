@@ -106,8 +106,8 @@ private:
                       "in the pictures, with a bright rim, sharp and evenly lit?"
                     : "a board of " + board_text(other) + " is seen: give --board " + board_text(other));
     }
-    /// The board that was perhaps meant, 0x0 if none is seen. Five pictures are looked at: the first may be of
-    /// something else.
+    /// The board that was perhaps meant, 0x0 if none is seen. Five pictures are looked at: the first may be
+    /// of something else.
     Size likely_board() {
         const std::size_t last = missed_.size() - 1;
         for (std::size_t i = 0; i < 5; ++i) {

@@ -25,8 +25,8 @@
 
 namespace fovea::apps {
 
-/// An image with the corners of its board, joined in their order, rows in six colours, a ring at the first; or
-/// with the reason why there is none. Small images are magnified.
+/// An image with the corners of its board, joined in their order, rows in six colours, a ring at the first;
+/// or with the reason why there is none. Small images are magnified.
 Picture<Rgb888> explain_board(const Picture<Gray8>& image, const SeenBoard& seen, const Board& board);
 
 /// What the picture of a camera's coverage shows.

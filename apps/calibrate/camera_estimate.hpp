@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The calibration of one camera, and of a pair, from the boards that were seen; and how far off each corner is.
+// The calibration of one camera, and of a pair, from the boards that were seen; and how far off each of their
+// corners is.
 #pragma once
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 
 #include <fovea/base/crc32.hpp>
 #include <fovea/camera/checkerboard.hpp>
+#include <fovea/camera/circle_grid.hpp>
 #include <fovea/image/geometry.hpp>
 
 #include <calibrate/board.hpp>
@@ -38,7 +39,7 @@ inline Status find_board(const Picture<Gray8>& image, const Board& board,
                          std::vector<SubPixelPoint>& corners) {
     corners.assign(static_cast<std::size_t>(board.size.area()), SubPixelPoint());
     const Span<SubPixelPoint> found(corners.data(), static_cast<std::ptrdiff_t>(corners.size()));
-    Status status = Status::unsupported;
+    Status status = Status::bad_argument;
     const auto with_scratch = [&](std::int64_t bytes, auto find) {
         // Not set to 0, which takes as long as a small picture.
         const std::unique_ptr<std::uint8_t[]> scratch(new std::uint8_t[static_cast<std::size_t>(bytes)]);
@@ -49,6 +50,15 @@ inline Status find_board(const Picture<Gray8>& image, const Board& board,
         with_scratch(find_checkerboard_scratch(image.size, board.size, options),
                      [&](Span<std::uint8_t> scratch) {
                          return find_checkerboard(image.view(), board.size, options, scratch, found);
+                     });
+    } else {
+        CircleGridOptions options;
+        options.tone = CircleTone::any;
+        if (board.pattern == BoardPattern::asymmetric_circles)
+            options.pattern = CircleGridPattern::asymmetric;
+        with_scratch(find_circle_grid_scratch(image.size, board.size, options),
+                     [&](Span<std::uint8_t> scratch) {
+                         return find_circle_grid(image.view(), board.size, options, scratch, found);
                      });
     }
     if (status != Status::ok) corners.clear();

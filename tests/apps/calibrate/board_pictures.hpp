@@ -30,6 +30,8 @@ struct BoardPlace {
 struct RenderedBoard {
     int columns = 7, rows = 6;
     double square = 12;
+    /// Squares, or dark circles of a third of a square in place of the corners.
+    enum class Pattern { squares, circles, asymmetric } pattern = Pattern::squares;
 };
 
 using Axes = std::array<std::array<double, 3>, 3>;
@@ -62,11 +64,21 @@ inline apps::Picture<Gray8> render_board(const Pinhole& camera, const BoardPlace
             for (std::size_t i = 0; i < 3; ++i) at[axis] += r[i][axis] * (ray[i] * s - middle[i]);
         }
         // In squares, from the first inner corner.
-        const double x = at[0] / board.square + (board.columns - 1) / 2.0;
+        const bool shifted = board.pattern == RenderedBoard::Pattern::asymmetric;
+        const double last = shifted ? 2 * (board.columns - 1) + 1 : board.columns - 1;
+        const double x = at[0] / board.square + last / 2;
         const double y = at[1] / board.square + (board.rows - 1) / 2.0;
-        if (s <= 0 || x < -2 || y < -2 || x > board.columns + 1 || y > board.rows + 1) return 120.0;
-        if (x < -1 || y < -1 || x >= board.columns || y >= board.rows) return 215.0;
-        return (static_cast<int>(std::floor(x)) + static_cast<int>(std::floor(y))) % 2 == 0 ? 35.0 : 215.0;
+        if (s <= 0 || x < -2 || y < -2 || x > last + 2 || y > board.rows + 1) return 120.0;
+        if (x < -1 || y < -1 || x >= last + 1 || y >= board.rows) return 215.0;
+        const int column = static_cast<int>(std::floor(x));
+        const int row = static_cast<int>(std::floor(y));
+        if (board.pattern == RenderedBoard::Pattern::squares) return (column + row) % 2 == 0 ? 35.0 : 215.0;
+        const double near_x = std::round(x);
+        const double near_y = std::round(y);
+        const bool there = near_x >= 0 && near_y >= 0 && near_x <= last && near_y <= board.rows - 1 &&
+                           (!shifted || static_cast<int>(near_x + near_y) % 2 == 0);
+        const double square = (x - near_x) * (x - near_x) + (y - near_y) * (y - near_y);
+        return there && square < 1.0 / 9 ? 35.0 : 215.0;
     };
     apps::Picture<Gray8> picture(camera.picture);
     for (int y = 0; y < camera.picture.height; ++y)
