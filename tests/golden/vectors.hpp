@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/board_vectors.hpp>
 #include <golden/calibration_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
@@ -142,6 +143,8 @@ inline constexpr Vector vectors[] = {
     {"camera/calibrate_planar", camera_calibrate_planar},
     {"camera/find_pose", camera_find_pose},
     {"camera/fisheye", camera_fisheye},
+    {"camera/checkerboard", camera_checkerboard},
+    {"camera/circle_grid", camera_circle_grid},
     {"camera/lens", camera_lens},
     {"camera/object_pose", camera_object_pose},
     {"camera/packed", camera_packed},
