@@ -85,6 +85,29 @@ TEST(Cholesky, ItsSquareIsTheMatrix) {
     }
 }
 
+TEST(Cholesky, LeavesWhatIsAboveTheDiagonal) {
+    const auto whole = [](int value) { return Real::from_int(value); };
+    // cholesky() reads the lower triangle alone.
+    Matrix<2, 2> lower(whole(4), whole(77), whole(2), whole(10));
+    ASSERT_EQ(cholesky(lower.view()), Status::ok);
+    EXPECT_EQ(lower(0, 0), whole(2));
+    EXPECT_EQ(lower(1, 0), whole(1));
+    EXPECT_EQ(lower(1, 1), whole(3));
+    EXPECT_EQ(lower(0, 1), whole(77));
+    // L D L^T reads the upper triangle and leaves it: 4, 2, 10 = [1 0; 1/2 1] [4 0; 0 9] [1 1/2; 0 1].
+    Matrix<2, 2> factors(whole(4), whole(2), whole(77), whole(10));
+    ASSERT_EQ(factor_ldlt(factors.view()), Status::ok);
+    EXPECT_EQ(factors(0, 1), whole(2));
+    EXPECT_EQ(factors(1, 0), Real::from_ratio(1, 2));
+    EXPECT_EQ(factors(1, 1), whole(9));
+    // Factors that nobody may write solve too: 4 x + 2 y = 10, 2 x + 10 y = 14 at x = 2, y = 1.
+    const Matrix<2, 2> kept = factors;
+    Real b[2] = {whole(10), whole(14)};
+    ASSERT_EQ(solve_with_ldlt(kept.view(), Span<Real>(b)), Status::ok);
+    EXPECT_EQ(b[0], whole(2));
+    EXPECT_EQ(b[1], whole(1));
+}
+
 TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
     const auto whole = [](int value) { return Real::from_int(value); };
     for (const Matrix<2, 2>& a : {Matrix<2, 2>(), Matrix<2, 2>(whole(1), whole(2), whole(2), whole(3)),

@@ -29,5 +29,17 @@ TEST(Log2, IsThatOfTheReference) {
     }
 }
 
+TEST(Log2, IsHeldAtItsEnds) {
+    constexpr std::int32_t largest = 0x7fffffff, smallest = -largest - 1;
+    EXPECT_EQ(log2_of(Real::from_int(1, 32767))->raw(), 32767 * 65536);
+    EXPECT_EQ(log2_of(Real::from_int(1, 32768))->raw(), largest);
+    EXPECT_EQ(log2_of(Real::from_int(1, 1000000))->raw(), largest);
+    EXPECT_EQ(log2_of(Real::from_int(1, -32768))->raw(), smallest);
+    EXPECT_EQ(log2_of(Real::from_int(1, -32769))->raw(), smallest);
+    EXPECT_EQ(log2_of(Real::from_int(1, -1000000))->raw(), smallest);
+    // Just below a power of two, where every square passes 2.
+    EXPECT_EQ(*log2_of(Real::from_int(0x7fffffffffffffff, -63)), Log2::from_int(0));
+}
+
 }  // namespace
 }  // namespace fovea::test

@@ -172,6 +172,14 @@ TEST(Real, RoundsToUnitsAndHoldsTheEnds) {
     EXPECT_EQ(Real::from_ratio(1, 4).rounded(0), 0);
     EXPECT_EQ(Real::from_ratio(1, 3).rounded(-100), 0);
     EXPECT_EQ(Real::from_ratio(1, 3).rounded(100), int64_max);
+    // Where the sum of both exponents has no room in an int.
+    constexpr int most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
+    for (const Real& value : {Real::from_int(-3, -1000), Real::from_int(-3), Real::from_int(-3, 1000)}) {
+        EXPECT_EQ(value.rounded(most), int64_min);
+        EXPECT_EQ((-value).rounded(most), int64_max);
+        EXPECT_EQ(value.rounded(least), 0);
+    }
+    EXPECT_EQ(Real().rounded(most), 0);
     EXPECT_EQ(Real::from_ratio(-1, 3).rounded(100), int64_min);
     EXPECT_EQ(Real::from_int(1, 63).rounded(0), int64_max);
     EXPECT_EQ(Real::from_int(-1, 63).rounded(0), int64_min);

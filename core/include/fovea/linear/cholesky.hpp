@@ -31,7 +31,7 @@ constexpr Status factor_ldlt(MatrixView<Scalar> a);
 ///
 /// Errors  size_mismatch
 template <class Scalar>
-constexpr Status solve_with_ldlt(MatrixView<Scalar> factors, Span<Scalar> b);
+constexpr Status solve_with_ldlt(NonDeduced<MatrixView<const Scalar>> factors, Span<Scalar> b);
 
 /// Solves a x = b for a symmetric positive definite a: both of the above.
 ///
@@ -79,7 +79,7 @@ constexpr Status factor_ldlt(MatrixView<Scalar> a) {
 }
 
 template <class Scalar>
-constexpr Status solve_with_ldlt(MatrixView<Scalar> factors, Span<Scalar> b) {
+constexpr Status solve_with_ldlt(NonDeduced<MatrixView<const Scalar>> factors, Span<Scalar> b) {
     const int n = factors.rows();
     if (factors.columns() != n || b.size() != n) return Status::size_mismatch;
     for (int i = 0; i < n; ++i)
@@ -94,7 +94,7 @@ template <class Scalar>
 constexpr Status solve_ldlt(MatrixView<Scalar> a, Span<Scalar> b) {
     if (b.size() != a.rows()) return Status::size_mismatch;
     const Status status = factor_ldlt(a);
-    return status == Status::ok ? solve_with_ldlt(a, b) : status;
+    return status == Status::ok ? solve_with_ldlt<Scalar>(a, b) : status;
 }
 
 }  // namespace fovea

@@ -68,6 +68,17 @@ constexpr void swap_columns(MatrixView<Scalar> a, int first, int second) {
     }
 }
 
+/// Sorts n values, the largest first: value(i) is the one at i, exchange(i, k) swaps what belongs to two.
+template <class Value, class Exchange>
+constexpr void sort_largest_first(int n, Value value, Exchange exchange) {
+    for (int i = 0; i < n; ++i) {
+        int largest = i;
+        for (int k = i + 1; k < n; ++k)
+            if (value(largest) < value(k)) largest = k;
+        if (largest != i) exchange(i, largest);
+    }
+}
+
 }  // namespace detail
 
 template <class Scalar>
@@ -112,16 +123,14 @@ constexpr Status symmetric_eigen(MatrixView<Scalar> a, MatrixView<Scalar> vector
                 }
             }
     }
-    for (int i = 0; i < n; ++i) {
-        int largest = i;
-        for (int k = i + 1; k < n; ++k)
-            if (a(largest, largest) < a(k, k)) largest = k;
-        if (largest == i) continue;
-        const Scalar kept = a(i, i);
-        a(i, i) = a(largest, largest);
-        a(largest, largest) = kept;
-        detail::swap_columns(vectors, i, largest);
-    }
+    detail::sort_largest_first(
+        n, [&](int i) -> const Scalar& { return a(i, i); },
+        [&](int i, int k) {
+            const Scalar kept = a(i, i);
+            a(i, i) = a(k, k);
+            a(k, k) = kept;
+            detail::swap_columns(vectors, i, k);
+        });
     return Status::ok;
 }
 

@@ -26,6 +26,10 @@ public:
     }
     constexpr MatrixView(Scalar* values, int rows, int columns)
         : MatrixView(values, rows, columns, columns) {}
+    /// A view that only reads.
+    template <class Other, class = std::enable_if_t<std::is_same_v<Scalar, const Other>>>
+    constexpr MatrixView(MatrixView<Other> other)
+        : values_(other.values_), rows_(other.rows_), columns_(other.columns_), stride_(other.stride_) {}
 
     constexpr int rows() const { return rows_; }
     constexpr int columns() const { return columns_; }
@@ -35,6 +39,9 @@ public:
     }
 
 private:
+    template <class Other>
+    friend class MatrixView;
+
     Scalar* values_ = nullptr;
     int rows_ = 0;
     int columns_ = 0;
@@ -68,6 +75,7 @@ public:
     constexpr Scalar& operator[](int index) { return values_[in_vector(index)]; }
     constexpr const Scalar& operator[](int index) const { return values_[in_vector(index)]; }
     constexpr View view() { return View(values_, Rows, Columns); }
+    constexpr MatrixView<const Scalar> view() const { return {values_, Rows, Columns}; }
 
     constexpr Matrix<Columns, Rows, Scalar> transposed() const {
         Matrix<Columns, Rows, Scalar> result;

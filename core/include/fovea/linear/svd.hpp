@@ -84,17 +84,15 @@ constexpr Status svd(MatrixView<Scalar> a, MatrixView<Scalar> v, Span<Scalar> va
         values[c] = least < square ? square_root(square) : zero;
         for (int r = 0; r < a.rows(); ++r) a(r, c) = values[c] == zero ? zero : a(r, c) / values[c];
     }
-    for (int i = 0; i < n; ++i) {
-        int largest = i;
-        for (int k = i + 1; k < n; ++k)
-            if (values[largest] < values[k]) largest = k;
-        if (largest == i) continue;
-        const Scalar kept = values[i];
-        values[i] = values[largest];
-        values[largest] = kept;
-        detail::swap_columns(a, i, largest);
-        detail::swap_columns(v, i, largest);
-    }
+    detail::sort_largest_first(
+        n, [&](int i) -> const Scalar& { return values[i]; },
+        [&](int i, int k) {
+            const Scalar kept = values[i];
+            values[i] = values[k];
+            values[k] = kept;
+            detail::swap_columns(a, i, k);
+            detail::swap_columns(v, i, k);
+        });
     return Status::ok;
 }
 

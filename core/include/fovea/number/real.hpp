@@ -146,7 +146,7 @@ constexpr Real Real::from_int(Int128 value, int exponent) {
 }
 
 constexpr std::int64_t Real::rounded(int bits) const {
-    const int drop = 63 - exponent() - bits;
+    const std::int64_t drop = std::int64_t{63} - exponent() - bits;
     if (zero() || drop > 64) return 0;
     if (drop < 1)
         return negative() ? std::numeric_limits<std::int64_t>::min()
