@@ -97,7 +97,8 @@ inline void linear_levenberg_marquardt(Workspace&, Digest& digest) {
         const auto done = levenberg_marquardt<2, Real>(problem, state);
         digest.add(done, state);
         NormalEquations<2> equations;
-        digest.add(problem.linearise(state, equations), equations.inverse());
+        digest.add(problem.linearise(state, equations));
+        digest.add(equations.inverse());
     }
 }
 
@@ -120,9 +121,11 @@ inline void linear_block_equations(Workspace& work, Digest& digest) {
         }
     equations.finish();
     Real gain;
-    for (const int damping : {-2, detail::undamped})
-        digest.add(equations.solve(damping, gain), gain, equations.cost(), equations.shared_step(),
-                   equations.own_step(0), equations.own_step(1));
+    for (const int damping : {-2, detail::undamped}) {
+        digest.add(equations.solve(damping, gain));
+        digest.add(gain, equations.cost(), equations.shared_step(), equations.own_step(0),
+                   equations.own_step(1));
+    }
     equations.invert();
     for (int i = 0; i < equations.shared(); ++i) digest.add(equations.shared_variance(i));
     for (int view = 0; view < equations.views(); ++view) digest.add(equations.own_variances(view));
@@ -134,8 +137,9 @@ inline void camera_projection_derivatives(Workspace&, Digest& digest) {
         const Camera<> camera = random_camera(random);
         const auto place = random_matrix<3, 1>(random);
         ProjectionDerivatives<> derivatives;
-        digest.add(project_derivatives(camera, place, derivatives), derivatives.pixel, derivatives.by_camera,
-                   derivatives.by_point, by_pose(derivatives.by_point.row(1), place));
+        digest.add(project_derivatives(camera, place, derivatives));
+        digest.add(derivatives.pixel, derivatives.by_camera, derivatives.by_point,
+                   by_pose(derivatives.by_point.row(1), place));
         const auto step = random_matrix<6, 1>(random);
         digest.add(moved(Pose<>(), step));
     }
@@ -151,6 +155,7 @@ inline void camera_calibrate_planar(Workspace& work, Digest& digest) {
     for (int view = 0; view < views; ++view) {
         board.see(SmallBoard::pose(view), random, seen[view]);
         all[view] = {board.board, seen[view]};
+        if (view != 1) continue;
         const auto homography = fit_homography(all[view].board, all[view].seen);
         digest.add(homography);
         start.add(*homography);
@@ -174,9 +179,9 @@ inline void camera_calibrate_planar(Workspace& work, Digest& digest) {
 }
 
 inline void stereo_calibrate_stereo(Workspace& work, Digest& digest) {
-    constexpr int views = 2;
+    constexpr int views = 1;
     const SmallBoard board;
-    const Pose<> way{rotation_about(Vector<3>(Real::from_ratio(1, 50), Real::from_ratio(-1, 9), Real())),
+    const Pose<> way{rotation_about(Vector<3>(Real::from_ratio(1, 50), Real::from_ratio(1, 9), Real())),
                      Vector<3>(Real::from_int(-20), Real::from_int(1), Real::from_int(2))};
     Random random(95);
     SubPixelPoint left[views][SmallBoard::points];

@@ -283,33 +283,35 @@ CalibrationVerdict calibrate_stereo(Span<const StereoView> views, const Calibrat
     verdict = system.start(left.camera, right.camera, others);
     if (!verdict.ok()) return verdict;
 
-    StereoCalibration<Scalar> result;
-    const CalibrationProblem problem = detail::refine<Scalar>(system, terms, poses, result.refinement);
+    Refinement<Scalar> refinement;
+    const CalibrationProblem problem = detail::refine<Scalar>(system, terms, poses, refinement);
     if (problem != CalibrationProblem::none) return {problem, -1};
     const Scalar variance =
-        result.refinement.cost / scalar_of<Scalar>(2 * points - shared - std::int64_t{6} * count);
+        refinement.cost / scalar_of<Scalar>(2 * points - shared - std::int64_t{6} * count);
     auto& equations = system.equations();
     equations.invert();
-    const auto deviation = [&](int i) { return square_root(equations.shared_variance(i) * variance); };
-    for (int i = 0; i < 3; ++i) {
-        result.rotation_deviation[i] = deviation(i);
-        result.translation_deviation[i] = deviation(i + 3);
-    }
-    result.right_from_left = system.way();
-    result.left = system.left();
-    result.right = system.right();
-    result.left_deviation =
-        terms.deviations<Scalar>([&](int i) { return equations.shared_variance(6 + i) * variance; });
-    result.right_deviation = terms.deviations<Scalar>(
-        [&](int i) { return equations.shared_variance(6 + terms.count() + i) * variance; });
-    result.rms = square_root(result.refinement.cost / scalar_of<Scalar>(points));
-    bool open = !detail::FreeTerms::determined(result.left, result.left_deviation) ||
-                !detail::FreeTerms::determined(result.right, result.right_deviation);
+    const auto variance_of = [&](int i) { return equations.shared_variance(i) * variance; };
+    const auto left_deviation = terms.deviations<Scalar>([&](int i) { return variance_of(6 + i); });
+    const auto right_deviation =
+        terms.deviations<Scalar>([&](int i) { return variance_of(6 + terms.count() + i); });
+    bool open = !detail::FreeTerms::determined(system.left(), left_deviation) ||
+                !detail::FreeTerms::determined(system.right(), right_deviation);
     for (int i = 0; i < 3; ++i)
-        if (!(result.rotation_deviation[i] < scalar_of<Scalar>(1, -3))) open = true;
+        if (!(variance_of(i) < scalar_of<Scalar>(1, -6))) open = true;
     if (open) return {CalibrationProblem::parallel_views, -1};
-    if (!result.refinement.converged) return {CalibrationProblem::no_convergence, -1};
+    if (!refinement.converged) return {CalibrationProblem::no_convergence, -1};
 
+    for (int i = 0; i < 3; ++i) {
+        calibration.rotation_deviation[i] = square_root(variance_of(i));
+        calibration.translation_deviation[i] = square_root(variance_of(i + 3));
+    }
+    calibration.right_from_left = system.way();
+    calibration.left = system.left();
+    calibration.right = system.right();
+    calibration.left_deviation = left_deviation;
+    calibration.right_deviation = right_deviation;
+    calibration.rms = square_root(refinement.cost / scalar_of<Scalar>(points));
+    calibration.refinement = refinement;
     for (int view = 0; view < count; ++view) {
         CalibratedView<Scalar>& fit = fits[view];
         fit.pose = system.pose(view);
@@ -321,7 +323,6 @@ CalibrationVerdict calibrate_stereo(Span<const StereoView> views, const Calibrat
         // In front of both cameras: the costs of all were asked for.
         fit.rms = square_root(*system.cost_of(view) / scalar_of<Scalar>(2 * views[view].board.size()));
     }
-    calibration = result;
     return {};
 }
 
