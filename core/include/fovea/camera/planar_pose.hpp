@@ -51,7 +51,8 @@ constexpr Result<PlaneTilts<Scalar>> poses_of_plane(const Matrix<3, 3, Scalar>& 
 /// Scratch elements that planar_pose() needs.
 constexpr std::ptrdiff_t planar_pose_scratch(std::ptrdiff_t points) { return points; }
 
-/// The poses of a flat object, each with the least sum of squared distances near it.
+/// The poses of a flat object, each with the least sum of squared distances near it. A second one that has
+/// more than twice the rms of the first after 10 steps is told as it is then: it is not the answer.
 ///
 /// Shapes    as many points as pixels: 4 to 2^20; z is 0
 /// Scratch   planar_pose_scratch(points.size()) pixels, undefined afterwards
@@ -145,6 +146,13 @@ constexpr Result<PlaneTilts<Scalar>> poses_of_plane(const Matrix<3, 3, Scalar>& 
 
 namespace detail {
 
+template <class T>
+constexpr void swap(T& a, T& b) {
+    const T kept = a;
+    a = b;
+    b = kept;
+}
+
 /// Whether two poses are one: alike to 2^-20 of a turn and of the distance.
 template <class Scalar>
 constexpr bool alike(const Pose<Scalar>& a, const Pose<Scalar>& b) {
@@ -201,22 +209,34 @@ constexpr Result<PlanarPoses<Scalar>> planar_pose(Span<const PlanePoint> points,
     if (!tilts) return tilts.status();
 
     PlanarPoses<Scalar> found;
+    bool converged[2] = {};
     Status status = Status::ok;
+    const auto every = [](std::ptrdiff_t) { return true; };
+    LevenbergMarquardtOptions some;
+    some.most_linearisations = 10;
     for (const Pose<Scalar>& start : tilts->poses) {
-        const Result<PoseFit<Scalar>> fit = refine_pose(points, pixels, camera, start);
-        if (!fit) {
-            status = fit.status();
+        const auto refined = detail::refine_pose_within(some, points, pixels, camera, start, every);
+        if (!refined) {
+            status = refined.status();
             continue;
         }
-        if (found.count == 1 && detail::alike(found.fits[0].pose, fit->pose)) continue;
-        found.fits[found.count++] = *fit;
+        converged[found.count] = refined->converged;
+        found.fits[found.count++] = refined->fit;
     }
     if (found.count == 0) return status;
     if (found.count == 2 && found.fits[1].rms < found.fits[0].rms) {
-        const PoseFit<Scalar> kept = found.fits[0];
-        found.fits[0] = found.fits[1];
-        found.fits[1] = kept;
+        detail::swap(found.fits[0], found.fits[1]);
+        detail::swap(converged[0], converged[1]);
     }
+    // The rest of the way, for those that may be the answer.
+    for (int i = 0; i < found.count; ++i) {
+        if (converged[i] || scale(found.fits[0].rms, 1) < found.fits[i].rms) continue;
+        const auto fit = detail::refine_pose_to(points, pixels, camera, found.fits[i].pose, every);
+        if (!fit) return fit.status();
+        found.fits[i] = *fit;
+    }
+    if (found.count == 2 && detail::alike(found.fits[0].pose, found.fits[1].pose)) found.count = 1;
+    if (found.count == 2 && found.fits[1].rms < found.fits[0].rms) detail::swap(found.fits[0], found.fits[1]);
     return found;
 }
 

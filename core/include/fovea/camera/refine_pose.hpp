@@ -123,34 +123,55 @@ private:
     int used_ = 0;
 };
 
-/// refine_pose() over the pairs for which use(index) holds.
+/// A pose after some steps, and whether they were enough.
+template <class Scalar>
+struct RefinedPose {
+    PoseFit<Scalar> fit;
+    bool converged = false;
+};
+
+/// refine_pose() over the pairs for which use(index) holds, with a bounded number of steps.
 template <class Scalar, class Point, class Use>
-constexpr Result<PoseFit<Scalar>> refine_pose_to(Span<const Point> points, Span<const SubPixelPoint> pixels,
-                                                 const Camera<Scalar>& camera, const Pose<Scalar>& start,
-                                                 Use use) {
+constexpr Result<RefinedPose<Scalar>> refine_pose_within(const LevenbergMarquardtOptions& options,
+                                                         Span<const Point> points,
+                                                         Span<const SubPixelPoint> pixels,
+                                                         const Camera<Scalar>& camera,
+                                                         const Pose<Scalar>& start, Use use) {
     const PoseProblem<Scalar, Point, Use> problem(points, pixels, camera, use);
     if (problem.used() < 3) return Status::bad_argument;
     Pose<Scalar> pose{start.rotation, start(problem.mean())};
-    const auto found = levenberg_marquardt<6, Scalar>(problem, pose);
+    const auto found = levenberg_marquardt<6, Scalar>(problem, pose, options);
     if (!found) return found.status();
-    if (!found->converged) return Status::undecided;
     NormalEquations<6, Scalar> equations;
     const Status status = problem.linearise(pose, equations);
     if (status != Status::ok) return status;
     const auto covariance = equations.inverse();
     if (!covariance) return covariance.status();
 
-    PoseFit<Scalar> fit;
+    RefinedPose<Scalar> refined;
+    refined.converged = found->converged;
+    PoseFit<Scalar>& fit = refined.fit;
     fit.pose = {pose.rotation, pose.translation - pose.rotation * problem.mean()};
     fit.used = problem.used();
     fit.rms = square_root(found->cost / scalar_of<Scalar>(fit.used));
-    if (fit.used == 3) return fit;
+    if (fit.used == 3) return refined;
     const Scalar variance = found->cost / scalar_of<Scalar>(2 * fit.used - 6);
     for (int k = 0; k < 3; ++k) {
         fit.turn_deviation[k] = square_root(variance * (*covariance)(k, k));
         fit.place_deviation[k] = square_root(variance * (*covariance)(3 + k, 3 + k));
     }
-    return fit;
+    return refined;
+}
+
+/// refine_pose() over the pairs for which use(index) holds.
+template <class Scalar, class Point, class Use>
+constexpr Result<PoseFit<Scalar>> refine_pose_to(Span<const Point> points, Span<const SubPixelPoint> pixels,
+                                                 const Camera<Scalar>& camera, const Pose<Scalar>& start,
+                                                 Use use) {
+    const auto refined = refine_pose_within(LevenbergMarquardtOptions(), points, pixels, camera, start, use);
+    if (!refined) return refined.status();
+    if (!refined->converged) return Status::undecided;
+    return refined->fit;
 }
 
 /// refine_pose(), of either kind of points.
