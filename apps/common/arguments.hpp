@@ -15,7 +15,7 @@
 
 namespace fovea::apps {
 
-/// One option of a command: --name, or --name VALUE when value is not "".
+/// One option of a command: --name, or --name VALUE when value is not "". --out is also -o.
 struct Option {
     const char* name;
     const char* value;  ///< what the value is called in the help; "" for a switch
@@ -69,7 +69,7 @@ private:
         const Option* option = nullptr;
         for (const Option& known : command.options) {
             names.push_back(known.name);
-            if ("--" + names.back() == name) option = &known;
+            if ("--" + names.back() == name || (name == "-o" && names.back() == "out")) option = &known;
         }
         if (name == "--help" || name == "-h") {
             given_.push_back({"help", ""});

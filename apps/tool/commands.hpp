@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+#include <calibrate/calibrate_command.hpp>
+#include <camera/camera_command.hpp>
+#include <camera/rectify_command.hpp>
+#include <camera/undistort_command.hpp>
 #include <common/arguments.hpp>
 #include <common/io.hpp>
 #include <gauge/compile_command.hpp>
@@ -44,6 +48,10 @@ std::vector<Entry<Io>> commands() {
             {read_help(), read_command<Io>},
             {make_code_help(), make_code_command<Io>},
             {make_part_help(), make_part_command<Io>},
+            {calibrate_help(), calibrate_command<Io>},
+            {undistort_help(), undistort_command<Io>},
+            {rectify_help(), rectify_command<Io>},
+            {camera_help(), camera_command<Io>},
             {op_help(), op_command<Io>},
             {sheet_help(), sheet_command<Io>},
             {ops_help(), ops_command<Io>},

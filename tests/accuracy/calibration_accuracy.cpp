@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <support/board_scene.hpp>
+#include <support/camera_scene.hpp>
 
 namespace {
 

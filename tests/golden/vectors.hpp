@@ -12,6 +12,7 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/board_vectors.hpp>
 #include <golden/calibration_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
@@ -108,6 +109,7 @@ inline constexpr Vector vectors[] = {
     {"morphology/shapes", morphology_shapes},
     {"morphology/thinning", morphology_thinning},
     {"warp/bilinear", warp_bilinear},
+    {"warp/curved_maps", warp_curved_maps},
     {"warp/homographies", warp_homographies},
     {"warp/maps", warp_maps},
     {"warp/polar_places", warp_polar_places},
@@ -138,17 +140,22 @@ inline constexpr Vector vectors[] = {
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
     {"camera/alignment", camera_alignment},
+    {"camera/calibrate_planar", camera_calibrate_planar},
     {"camera/find_pose", camera_find_pose},
     {"camera/fisheye", camera_fisheye},
-    {"camera/calibrate_planar", camera_calibrate_planar},
+    {"camera/checkerboard", camera_checkerboard},
+    {"camera/circle_grid", camera_circle_grid},
     {"camera/lens", camera_lens},
     {"camera/object_pose", camera_object_pose},
+    {"camera/packed", camera_packed},
     {"camera/planar_pose", camera_planar_pose},
     {"camera/poses", camera_poses},
-    {"camera/projection_derivatives", camera_projection_derivatives},
-    {"stereo/calibrate_stereo", stereo_calibrate_stereo},
     {"camera/projection", camera_projection},
+    {"camera/projection_derivatives", camera_projection_derivatives},
+    {"camera/undistortion", camera_undistortion},
     {"camera/view_fit", camera_view_fit},
+    {"camera/views", camera_views},
+    {"stereo/calibrate_stereo", stereo_calibrate_stereo},
     {"stereo/epipolar", stereo_epipolar},
     {"stereo/essential", stereo_essential},
     {"stereo/essential_ransac", stereo_essential_ransac},
@@ -157,8 +164,6 @@ inline constexpr Vector vectors[] = {
     {"stereo/rectify", stereo_rectify},
     {"stereo/rectify_zoom", stereo_rectify_zoom},
     {"stereo/triangulate", stereo_triangulate},
-    {"camera/projection_derivatives", camera_projection_derivatives},
-    {"stereo/calibrate_stereo", stereo_calibrate_stereo},
     {"code/blurred_ean", code_blurred_ean},
     {"code/read_blurred_bars", code_read_blurred_bars},
     {"code/local_threshold", code_local_threshold},

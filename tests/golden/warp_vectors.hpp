@@ -12,6 +12,7 @@
 #include <fovea/warp/homography.hpp>
 #include <fovea/warp/polar.hpp>
 #include <fovea/warp/remap.hpp>
+#include <fovea/warp/remap_curved.hpp>
 #include <golden/digest.hpp>
 #include <golden/workspace.hpp>
 
@@ -122,6 +123,31 @@ inline void warp_maps(Workspace& work, Digest& digest) {
             const Span<MapPoint> whole(row, size.width);
             digest.add(expand_map_grid(grid, size.height - 1, whole), whole);
             digest.add(remap_grid<Gray8>(src, map, sampling, dst));
+        }
+    }
+}
+
+inline void warp_curved_maps(Workspace& work, Digest& digest) {
+    const ImageView<Gray8> src = part_picture(work, 0);
+    const Size sizes_of[] = {{1, 1}, {20, 3}, {37, 11}, {70, 40}};
+    Random random(44);
+    for (const Size size : sizes_of) {
+        const ImageView<Gray8> dst = work.view<Gray8>(1, size);
+        const Size points = map_grid_size(size);
+        const ImageView<MapPoint> grid = work.view<MapPoint>(2, points);
+        for (const int reach : {300, 6000, 0x7fffff00}) {
+            for (int y = 0; y < points.height; ++y)
+                for (int x = 0; x < points.width; ++x) {
+                    const int to_x = random.between(-reach, reach);
+                    const int to_y = random.between(-reach, reach);
+                    const int near = reach > 6000 ? 0 : 4096;
+                    grid(x, y) = {SubPixel::from_raw(near * x + to_x), SubPixel::from_raw(near * y + to_y)};
+                }
+            if (points.width > 3) grid(points.width - 1, 0) = no_map_point;
+            digest.add(remap_curved_grid<Gray8>(src, grid, {}, dst), dst);
+            MapPoint row[70];
+            const Span<MapPoint> whole(row, size.width);
+            digest.add(expand_curved_map_grid(grid, size.height - 1, whole), whole);
         }
     }
 }

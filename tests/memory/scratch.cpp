@@ -10,6 +10,8 @@
 #include <vector>
 
 #include <fovea/camera/calibrate_planar.hpp>
+#include <fovea/camera/checkerboard.hpp>
+#include <fovea/camera/circle_grid.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <fovea/code/bar_stream.hpp>
 #include <fovea/code/read_bars.hpp>
@@ -24,6 +26,7 @@
 #include <fovea/motion/block_motion.hpp>
 #include <fovea/segment/connected_components.hpp>
 #include <fovea/stereo/calibrate_stereo.hpp>
+#include <fovea/warp/remap.hpp>
 
 using namespace fovea;
 
@@ -76,8 +79,18 @@ int main() {
          [](Size size) { return connected_components_scratch(size.width, 64); }},
         {"find_circles of 10 to 100 px", [](Size size) { return find_circles_scratch(size, {}); }},
         {"block_motion, blocks of 16", [](Size size) { return block_motion_scratch(size, 16); }},
+        {"find_checkerboard, 9x6",
+         [](Size size) {
+             return find_checkerboard_scratch(size, {9, 6}, {});
+         }},
+        {"find_circle_grid, 4x11",
+         [](Size size) {
+             return find_circle_grid_scratch(size, {4, 11}, {});
+         }},
         {"read_bars", read_bars_scratch},
         {"BarStream", [](Size size) { return bar_stream_scratch(size.width); }},
+        {"the grid of an undistortion map",
+         [](Size size) { return map_grid_size(size).area() * static_cast<std::int64_t>(sizeof(MapPoint)); }},
         {"edge_probe", [](Size size) { return std::int64_t{2} * edge_probe_scratch(size); }},
         {"find_parts", [](Size size) { return find_parts_scratch(size, {}); }},
         {"find_parts after an opening", [&](Size size) { return find_parts_scratch(size, opened); }},

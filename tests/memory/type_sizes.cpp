@@ -3,6 +3,8 @@
 // The public types that a program stores, each as a symbol of its size: tests/checks/memory.py reads them
 // from the object, for processors whose programs cannot run here too.
 #include <fovea/base/list.hpp>
+#include <fovea/camera/packed_camera.hpp>
+#include <fovea/camera/undistortion_map.hpp>
 #include <fovea/decision/gauge.hpp>
 #include <fovea/draw/polygon.hpp>
 #include <fovea/image/image_view.hpp>
@@ -29,6 +31,8 @@ template char bytes_of<Feature>[];
 template char bytes_of<Recipe>[];
 template char bytes_of<FeatureResult>[];
 template char bytes_of<PartResult>[];
+template char bytes_of<UndistortionMap>[];
+template char bytes_of<CameraSet>[];
 template char bytes_of<StereoCamera<>>[];
 template char bytes_of<Rectification<>>[];
 template char bytes_of<Triangulator<>>[];

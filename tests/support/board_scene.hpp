@@ -1,239 +1,251 @@
 // SPDX-License-Identifier: MIT
 //
-// Random cameras, and what they see of a board in random poses.
+// Rendered boards, seen by a camera of known place: corners and circles whose truth is known. Host tests only.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <fovea/base/random.hpp>
-#include <fovea/base/span.hpp>
-#include <fovea/camera/calibrate_planar.hpp>
-#include <fovea/stereo/calibrate_stereo.hpp>
-#include <support/scalars.hpp>
+#include <fovea/image/geometry.hpp>
+#include <fovea/image/image_view.hpp>
+#include <fovea/image/pixel.hpp>
 
 namespace fovea::test {
 
-/// Numbers between two, and of a normal distribution. One draw a statement: compilers agree.
-class Noise {
+enum class BoardPattern { checkerboard, circles, asymmetric_circles };
+
+/// A board before a camera. Lengths are squares of the board, or pixels.
+struct BoardScene {
+    Size picture{320, 240};
+    Size board{9, 6};  ///< columns and rows of inner corners or circles
+    BoardPattern pattern = BoardPattern::checkerboard;
+    double step = 22;       ///< pixels a square has in the middle of the board
+    double x = 0, y = 0;    ///< the middle of the board, from the middle of the picture; pixels
+    double tilt = 0;        ///< degrees
+    double direction = 30;  ///< of the axis that it is tilted about; degrees
+    double roll = 0;        ///< of the board in its plane; degrees
+    double focal = 1.2;     ///< in widths of the picture
+    double k1 = 0, k2 = 0;
+    double dark = 40, bright = 210, around = 120;  ///< grey levels
+    double margin = 0.7;                           ///< bright rim around the outer squares, squares
+    double radius = 0.3;                           ///< of a circle, squares
+    double blur = 0.7;                             ///< standard deviation of the lens, px
+    double noise = 0;                              ///< standard deviation of the sensor, grey levels
+    double light = 1;                              ///< brightness at the left as a share of that at the right
+    bool inverted = false;                         ///< dark and bright of the board exchanged
+};
+
+/// A place of a board in the picture.
+struct Seen {
+    double x = 0, y = 0;
+};
+
+struct BoardPicture {
+    Size size;
+    std::vector<Gray8> pixels;
+
+    explicit BoardPicture(Size of) : size(of), pixels(static_cast<std::size_t>(of.area())) {}
+    ImageView<Gray8> view() { return {pixels.data(), size, size.width}; }
+    ImageView<const Gray8> view() const { return {pixels.data(), size, size.width}; }
+};
+
+/// Projects and renders a scene.
+class BoardView {
 public:
-    explicit Noise(std::uint64_t seed) : random_(seed) {}
-    double between(double low, double high) { return low + (high - low) * (random_.next() / 4294967296.0); }
-    int between(int low, int high) { return random_.between(low, high); }
-    double normal() {
-        double sum = 0;
-        for (int i = 0; i < 12; ++i) sum += between(0.0, 1.0);
-        return sum - 6;
+    explicit BoardView(const BoardScene& scene) : scene_(scene) {
+        const double to = 3.14159265358979323846 / 180;
+        const double a = scene.direction * to;
+        const double t = scene.tilt * to;
+        const double r = scene.roll * to - a;
+        focal_ = scene.focal * scene.picture.width;
+        // The columns of Rz(a) Rx(t) Rz(r).
+        const double ca = std::cos(a), sa = std::sin(a), ct = std::cos(t), st = std::sin(t), cr = std::cos(r),
+                     sr = std::sin(r);
+        const double far = focal_ / scene.step;
+        map_ = {ca * cr - sa * ct * sr,
+                -ca * sr - sa * ct * cr,
+                scene.x / scene.step,
+                sa * cr + ca * ct * sr,
+                -sa * sr + ca * ct * cr,
+                scene.y / scene.step,
+                st * sr,
+                st * cr,
+                far};
+    }
+
+    /// Where a corner or the centre of a circle is seen.
+    Seen operator()(int column, int row) const {
+        const Seen at = place(column, row);
+        return project(at.x - middle().x, at.y - middle().y);
+    }
+    /// The place of a corner or circle on the board.
+    Seen place(int column, int row) const {
+        if (scene_.pattern != BoardPattern::asymmetric_circles)
+            return {static_cast<double>(column), static_cast<double>(row)};
+        return {2.0 * column + row % 2, static_cast<double>(row)};
+    }
+
+    /// Pixels are means over their squares of what the lens has blurred: fields of a third of a pixel are
+    /// blurred, since after sampling it would be too late.
+    BoardPicture render(Random& random) const {
+        const int margin = static_cast<int>(std::ceil(4 * scene_.blur)) + 1;
+        const int w = fine * (scene_.picture.width + 2 * margin);
+        const int h = fine * (scene_.picture.height + 2 * margin);
+        // Places of the board that the corners of fields see; inside of a field they are bilinear.
+        std::vector<Seen> above(static_cast<std::size_t>(w) + 1);
+        std::vector<Seen> below(static_cast<std::size_t>(w) + 1);
+        const auto look = [&](int y, std::vector<Seen>& to) {
+            for (int x = 0; x <= w; ++x)
+                to[static_cast<std::size_t>(x)] = board_of(static_cast<double>(x) / fine - margin - 0.5,
+                                                           static_cast<double>(y) / fine - margin - 0.5);
+        };
+        const auto index = [w](int x, int y) {
+            return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+        };
+        std::vector<float> light(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+        look(0, above);
+        for (int y = 0; y < h; ++y) {
+            look(y + 1, below);
+            for (int x = 0; x < w; ++x) {
+                const std::size_t i = static_cast<std::size_t>(x);
+                light[index(x, y)] = static_cast<float>(mean(above[i], above[i + 1], below[i], below[i + 1]));
+            }
+            std::swap(above, below);
+        }
+        blur(light, w, h);
+        BoardPicture picture(scene_.picture);
+        for (int y = 0; y < scene_.picture.height; ++y)
+            for (int x = 0; x < scene_.picture.width; ++x) {
+                double sum = 0;
+                for (int i = 0; i < fine * fine; ++i)
+                    sum += static_cast<double>(
+                        light[index(fine * (x + margin) + i % fine, fine * (y + margin) + i / fine)]);
+                const double share =
+                    scene_.light + (1 - scene_.light) * x / std::max(scene_.picture.width - 1, 1);
+                const double sensor = scene_.noise > 0 ? scene_.noise * deviate(random) : 0;
+                const double level = sum / (fine * fine) * share + sensor;
+                picture.view()(x, y) = static_cast<Gray8>(std::clamp(std::lround(level), 0L, 255L));
+            }
+        return picture;
     }
 
 private:
-    Random random_;
+    static constexpr int fine = 3;
+    /// A normal random number: the sum of twelve uniform ones, variance 1.
+    static double deviate(Random& random) {
+        double sum = -6;
+        for (int i = 0; i < 12; ++i) sum += random.next() / 4294967296.0;
+        return sum;
+    }
+    Seen middle() const {
+        const Seen last = place(scene_.board.width - 1, scene_.board.height - 1);
+        const double more =
+            scene_.pattern == BoardPattern::asymmetric_circles && scene_.board.height % 2 != 0;
+        return {(last.x + more) / 2, last.y / 2};
+    }
+    Seen project(double u, double v) const {
+        const double z = map_[6] * u + map_[7] * v + map_[8];
+        const double x = (map_[0] * u + map_[1] * v + map_[2]) / z;
+        const double y = (map_[3] * u + map_[4] * v + map_[5]) / z;
+        const double r2 = x * x + y * y;
+        const double bend = 1 + r2 * (scene_.k1 + r2 * scene_.k2);
+        return {x * bend * focal_ + (scene_.picture.width - 1) / 2.0,
+                y * bend * focal_ + (scene_.picture.height - 1) / 2.0};
+    }
+    /// The place of the board that a pixel sees.
+    Seen board_of(double px, double py) const {
+        const double xd = (px - (scene_.picture.width - 1) / 2.0) / focal_;
+        const double yd = (py - (scene_.picture.height - 1) / 2.0) / focal_;
+        double x = xd;
+        double y = yd;
+        if (scene_.k1 != 0 || scene_.k2 != 0)
+            for (int i = 0; i < 12; ++i) {
+                const double r2 = x * x + y * y;
+                const double bend = 1 + r2 * (scene_.k1 + r2 * scene_.k2);
+                x = xd / bend;
+                y = yd / bend;
+            }
+        // x (m6 u + m7 v + m8) = m0 u + m1 v + m2, and so for y.
+        const double a = map_[0] - x * map_[6], b = map_[1] - x * map_[7], c = x * map_[8] - map_[2];
+        const double d = map_[3] - y * map_[6], e = map_[4] - y * map_[7], f = y * map_[8] - map_[5];
+        const double size = a * e - b * d;
+        return {(c * e - b * f) / size + middle().x, (a * f - c * d) / size + middle().y};
+    }
+    double level(double u, double v) const {
+        const double lit = scene_.inverted ? scene_.dark : scene_.bright;
+        const double print = scene_.inverted ? scene_.bright : scene_.dark;
+        const Seen last = place(scene_.board.width - 1, scene_.board.height - 1);
+        const double more = scene_.pattern == BoardPattern::asymmetric_circles ? 1 : 0;
+        const double rim = 1 + scene_.margin;
+        if (u < -rim || v < -rim || u > last.x + more + rim || v > last.y + rim) return scene_.around;
+        if (scene_.pattern == BoardPattern::checkerboard) {
+            const int i = static_cast<int>(std::floor(u));
+            const int j = static_cast<int>(std::floor(v));
+            const bool square = i >= -1 && j >= -1 && i < scene_.board.width && j < scene_.board.height;
+            return square && (i + j) % 2 == 0 ? print : lit;
+        }
+        const int row = static_cast<int>(std::lround(v));
+        const int shift = scene_.pattern == BoardPattern::circles ? 0 : ((row % 2) + 2) % 2;
+        const double pitch = scene_.pattern == BoardPattern::circles ? 1 : 2;
+        const int column = static_cast<int>(std::lround((u - shift) / pitch));
+        if (row < 0 || column < 0 || row >= scene_.board.height || column >= scene_.board.width) return lit;
+        const double dx = u - shift - pitch * column;
+        const double dy = v - row;
+        return dx * dx + dy * dy < scene_.radius * scene_.radius ? print : lit;
+    }
+    /// The mean over a field between four places.
+    double mean(const Seen& a, const Seen& b, const Seen& c, const Seen& d) const {
+        const auto at = [&](double s, double t) {
+            const double u = (a.x * (1 - s) + b.x * s) * (1 - t) + (c.x * (1 - s) + d.x * s) * t;
+            const double v = (a.y * (1 - s) + b.y * s) * (1 - t) + (c.y * (1 - s) + d.y * s) * t;
+            return level(u, v);
+        };
+        const double first = at(0, 0);
+        bool equal = true;
+        for (int i = 1; i < 9 && equal; ++i) equal = at(i % 3 * 0.5, i / 3 * 0.5) == first;
+        if (equal) return first;
+        constexpr int over = 10;
+        double sum = 0;
+        for (int i = 0; i < over * over; ++i) sum += at((i % over + 0.5) / over, (i / over + 0.5) / over);
+        return sum / (over * over);
+    }
+    void blur(std::vector<float>& light, int w, int h) const {
+        if (scene_.blur <= 0) return;
+        const double sigma = scene_.blur * fine;
+        const int reach = static_cast<int>(std::ceil(4 * sigma));
+        std::vector<float> taps;
+        double sum = 0;
+        for (int i = 0; i <= reach; ++i) sum += std::exp(-i * i / (2 * sigma * sigma)) * (i == 0 ? 1 : 2);
+        for (int i = -reach; i <= reach; ++i)
+            taps.push_back(static_cast<float>(std::exp(-i * i / (2 * sigma * sigma)) / sum));
+        const auto pass = [&](int count, int lines, std::size_t next, std::size_t next_line) {
+            const std::size_t pad = static_cast<std::size_t>(reach);
+            std::vector<float> line(static_cast<std::size_t>(count) + 2 * pad);
+            for (int l = 0; l < lines; ++l) {
+                float* first = light.data() + static_cast<std::size_t>(l) * next_line;
+                for (std::size_t i = 0; i < line.size(); ++i) {
+                    const int from = std::clamp(static_cast<int>(i) - reach, 0, count - 1);
+                    line[i] = first[static_cast<std::size_t>(from) * next];
+                }
+                for (int i = 0; i < count; ++i) {
+                    float total = 0;
+                    for (std::size_t k = 0; k < taps.size(); ++k)
+                        total += taps[k] * line[static_cast<std::size_t>(i) + k];
+                    first[static_cast<std::size_t>(i) * next] = total;
+                }
+            }
+        };
+        pass(w, h, 1, static_cast<std::size_t>(w));
+        pass(h, w, static_cast<std::size_t>(w), 1);
+    }
+
+    BoardScene scene_;
+    double focal_ = 1;
+    std::vector<double> map_;
 };
-
-/// A turn by Euler's angles, in double.
-inline Matrix<3, 3, double> turn(double a, double b, double c) {
-    const Matrix<3, 3, double> x(1.0, 0.0, 0.0, 0.0, std::cos(a), -std::sin(a), 0.0, std::sin(a),
-                                 std::cos(a));
-    const Matrix<3, 3, double> y(std::cos(b), 0.0, std::sin(b), 0.0, 1.0, 0.0, -std::sin(b), 0.0,
-                                 std::cos(b));
-    const Matrix<3, 3, double> z(std::cos(c), -std::sin(c), 0.0, std::sin(c), std::cos(c), 0.0, 0.0, 0.0,
-                                 1.0);
-    return x * y * z;
-}
-
-/// The places of a board with this many columns and rows of points.
-inline std::vector<PlanePoint> board_of(int columns, int rows, int square) {
-    std::vector<PlanePoint> board;
-    for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < columns; ++x) board.push_back({x * square, y * square});
-    return board;
-}
-
-/// What a camera sees of a board, with noise in pixels; empty if not all of it is in the picture, before the
-/// fold of the lens.
-inline std::vector<SubPixelPoint> seen_by(const Camera<double>& camera, Size picture,
-                                          const Pose<double>& pose, const std::vector<PlanePoint>& board,
-                                          double noise, Noise& random) {
-    std::vector<SubPixelPoint> seen;
-    for (const PlanePoint point : board) {
-        const Vector<3, double> place = pose(Vector<3, double>(double(point.x), double(point.y), 0.0));
-        if (place[2] <= 0) return {};
-        const double square = (place[0] * place[0] + place[1] * place[1]) / (place[2] * place[2]);
-        const double slope = 1 + square * (3 * camera.k1 + square * (5 * camera.k2 + square * 7 * camera.k3));
-        const Vector<2, double> pixel = *project(camera, place);
-        const double u = pixel[0] + noise * random.normal();
-        const double v = pixel[1] + noise * random.normal();
-        if (slope < 0.2 || u < 1 || v < 1 || u > picture.width - 2 || v > picture.height - 2) return {};
-        seen.push_back({SubPixel::from_raw(static_cast<std::int32_t>(std::lround(u * 256))),
-                        SubPixel::from_raw(static_cast<std::int32_t>(std::lround(v * 256)))});
-    }
-    return seen;
-}
-
-/// A camera, and views of a board by it.
-struct CameraScene {
-    Size picture;
-    Camera<double> camera;
-    double noise = 0;
-    std::vector<PlanePoint> board = board_of(9, 6, 25);
-    std::vector<std::vector<SubPixelPoint>> seen;
-    std::vector<PlanarView> views;
-
-    Span<const PlanarView> span() const { return {views.data(), static_cast<std::ptrdiff_t>(views.size())}; }
-    void add(std::vector<SubPixelPoint> points) { seen.push_back(std::move(points)); }
-    void collect() {
-        views.clear();
-        for (const auto& points : seen)
-            views.push_back({{board.data(), static_cast<std::ptrdiff_t>(board.size())},
-                             {points.data(), static_cast<std::ptrdiff_t>(points.size())}});
-    }
-};
-
-/// 320 to 1280 px wide, of all focal lengths and lenses that are usual.
-inline void draw_camera(CameraScene& scene, Noise& random) {
-    scene.picture.width = 320 << random.between(0, 2);
-    scene.picture.height = scene.picture.width * 3 / 4;
-    const double width = scene.picture.width;
-    Camera<double>& camera = scene.camera;
-    camera.fx = width * random.between(0.6, 2.0);
-    camera.fy = camera.fx * random.between(0.98, 1.02);
-    camera.cx = width * random.between(0.45, 0.55);
-    camera.cy = scene.picture.height * random.between(0.45, 0.55);
-    camera.k1 = random.between(-0.35, 0.15);
-    camera.k2 = random.between(-0.1, 0.2);
-    camera.k3 = 0;
-    camera.p1 = random.between(-2e-3, 2e-3);
-    camera.p2 = random.between(-2e-3, 2e-3);
-    scene.noise = random.between(0.02, 0.3);
-}
-/// A board in front of the camera, tilted by up to 34 degrees about both axes.
-inline Pose<double> draw_pose(const CameraScene& scene, Noise& random) {
-    const double a = random.between(-0.6, 0.6);
-    const double b = random.between(-0.6, 0.6);
-    const double c = random.between(-1.5, 1.5);
-    const double z = 25 * scene.camera.fx / scene.picture.width * random.between(11.0, 22.0);
-    const double x = z * scene.picture.width / scene.camera.fx * random.between(-0.25, 0.25);
-    const double y = z * scene.picture.height / scene.camera.fy * random.between(-0.25, 0.25);
-    Pose<double> pose;
-    pose.rotation = turn(a, b, c);
-    // About the board's middle.
-    pose.translation = Vector<3, double>(x, y, z) - pose.rotation * Vector<3, double>(100.0, 62.5, 0.0);
-    return pose;
-}
-inline CameraScene random_scene(std::uint64_t seed) {
-    Noise random(seed);
-    CameraScene scene;
-    draw_camera(scene, random);
-    const std::size_t views = static_cast<std::size_t>(random.between(5, 14));
-    while (scene.seen.size() < views) {
-        const Pose<double> pose = draw_pose(scene, random);
-        auto points = seen_by(scene.camera, scene.picture, pose, scene.board, scene.noise, random);
-        if (!points.empty()) scene.add(std::move(points));
-    }
-    scene.collect();
-    return scene;
-}
-
-/// Two cameras, and views of a board by both.
-struct StereoScene {
-    CameraScene left;
-    CameraScene right;
-    Pose<double> right_from_left;
-    std::vector<StereoView> views;
-
-    Span<const StereoView> span() const { return {views.data(), static_cast<std::ptrdiff_t>(views.size())}; }
-};
-inline StereoScene random_rig(std::uint64_t seed) {
-    Noise random(seed);
-    StereoScene scene;
-    draw_camera(scene.left, random);
-    // The same kind of camera, a little different.
-    scene.right.picture = scene.left.picture;
-    scene.right.camera = scene.left.camera;
-    scene.right.noise = scene.left.noise;
-    scene.right.camera.fx *= random.between(0.95, 1.05);
-    scene.right.camera.fy *= random.between(0.95, 1.05);
-    scene.right.camera.cx += scene.left.picture.width * random.between(-0.02, 0.02);
-    scene.right.camera.k1 += random.between(-0.03, 0.03);
-    const double a = random.between(-0.1, 0.1);
-    const double b = random.between(-0.2, 0.2);
-    const double c = random.between(-0.1, 0.1);
-    const Matrix<3, 3, double> rotation = turn(a, b, c);
-    const double distance = 25 * 15 * scene.left.camera.fx / scene.left.picture.width;
-    // The right camera looks about where the left one does.
-    const double side = distance * random.between(0.05, 0.2);
-    const double up = distance * random.between(-0.03, 0.03);
-    const double ahead = distance * random.between(-0.03, 0.03);
-    const Vector<3, double> middle(0.0, 0.0, distance);
-    scene.right_from_left.rotation = rotation;
-    scene.right_from_left.translation = middle - rotation * middle + Vector<3, double>(-side, up, ahead);
-    const std::size_t views = static_cast<std::size_t>(random.between(5, 14));
-    while (scene.left.seen.size() < views) {
-        const Pose<double> pose = draw_pose(scene.left, random);
-        auto left =
-            seen_by(scene.left.camera, scene.left.picture, pose, scene.left.board, scene.left.noise, random);
-        if (left.empty()) continue;
-        auto right = seen_by(scene.right.camera, scene.right.picture, compose(scene.right_from_left, pose),
-                             scene.right.board, scene.right.noise, random);
-        if (right.empty()) continue;
-        scene.left.add(std::move(left));
-        scene.right.add(std::move(right));
-    }
-    scene.left.collect();
-    scene.right.collect();
-    for (std::size_t view = 0; view < views; ++view)
-        scene.views.push_back(
-            {scene.left.views[view].board, scene.left.views[view].seen, scene.right.views[view].seen});
-    return scene;
-}
-
-/// calibrate_planar() with memory of its own.
-template <class Scalar>
-struct PlanarRun {
-    CalibrationVerdict verdict;
-    PlanarCalibration<Scalar> calibration;
-    std::vector<CalibratedView<Scalar>> fits;
-
-    PlanarRun(Span<const PlanarView> views, Size picture, const IntrinsicsOptions& options = {})
-        : fits(static_cast<std::size_t>(views.size())) {
-        const std::int64_t bytes = calibrate_planar_scratch<Scalar>(static_cast<int>(views.size()));
-        std::vector<std::uint8_t> scratch(static_cast<std::size_t>(bytes));
-        verdict = calibrate_planar<Scalar>(views, picture, options,
-                                           {scratch.data(), static_cast<std::ptrdiff_t>(bytes)},
-                                           {fits.data(), views.size()}, calibration);
-    }
-};
-
-/// calibrate_stereo() the same.
-template <class Scalar>
-struct StereoRun {
-    CalibrationVerdict verdict;
-    StereoCalibration<Scalar> calibration;
-    std::vector<CalibratedView<Scalar>> fits;
-
-    StereoRun(Span<const StereoView> views, const CalibratedCamera<Scalar>& left,
-              const CalibratedCamera<Scalar>& right, const StereoOptions& options = {})
-        : fits(static_cast<std::size_t>(views.size())) {
-        const std::int64_t bytes = calibrate_stereo_scratch<Scalar>(static_cast<int>(views.size()));
-        std::vector<std::uint8_t> scratch(static_cast<std::size_t>(bytes));
-        verdict = calibrate_stereo<Scalar>(views, left, right, options,
-                                           {scratch.data(), static_cast<std::ptrdiff_t>(bytes)},
-                                           {fits.data(), views.size()}, calibration);
-    }
-};
-
-/// The largest difference between two cameras, in standard deviations of the estimated terms.
-template <class Scalar, class Other>
-double deviations_between(const Camera<Scalar>& a, const Camera<Other>& b, const Camera<Scalar>& deviation) {
-    double most = 0;
-    for (int i = 0; i < camera_terms; ++i) {
-        const auto term = static_cast<CameraTerm>(i);
-        const long double difference = value_of(term_of(a, term)) - value_of(term_of(b, term));
-        const long double one = value_of(term_of(deviation, term));
-        if (one != 0) most = std::max(most, static_cast<double>(std::abs(difference) / one));
-    }
-    return most;
-}
 
 }  // namespace fovea::test

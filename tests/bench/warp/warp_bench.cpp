@@ -3,6 +3,7 @@
 
 #include <fovea/warp/homography.hpp>
 #include <fovea/warp/remap.hpp>
+#include <fovea/warp/remap_curved.hpp>
 
 #include <bench/operators.hpp>
 
@@ -168,6 +169,14 @@ const bool grid_added = add(1622, "remap_grid", Sizes::vga_and_full_hd, [](Row& 
         row, map_grid_size(row.size()), [=](int x, int y) { return lens.point(16 * x, 16 * y); },
         [](ImageView<const Gray8> src, ImageView<const MapPoint> map, ImageView<Gray8> dst) {
             return remap_grid<Gray8>(src, map, {}, dst);
+        });
+});
+const bool curved_added = add(1623, "remap_curved_grid", Sizes::vga_and_full_hd, [](Row& row) {
+    const Lens lens(row.size());
+    remap_line<MapPoint>(
+        row, map_grid_size(row.size()), [=](int x, int y) { return lens.point(16 * x, 16 * y); },
+        [](ImageView<const Gray8> src, ImageView<const MapPoint> map, ImageView<Gray8> dst) {
+            return remap_curved_grid<Gray8>(src, map, {}, dst);
         });
 });
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fovea/camera/projection_derivatives.hpp>
-#include <support/board_scene.hpp>
+#include <support/camera_scene.hpp>
 
 namespace fovea::test {
 namespace {

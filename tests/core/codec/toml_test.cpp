@@ -182,6 +182,39 @@ TEST(TomlReader, RefusesOtherFormsOfNumbers) {
         EXPECT_EQ(value_of(number), "1:5 a number must not begin with 0") << number;
 }
 
+TEST(TomlReader, LeavesNumbersAsTheyAreWrittenIfAsked) {
+    const auto number = [](const std::string& word) {
+        const std::string text = "a = " + word + "\nb = [" + word + ", " + word + "]";
+        TomlReader reader({text.data(), static_cast<std::ptrdiff_t>(text.size())}, TomlNumbers::as_written);
+        const Result<TomlItem> item = reader.next();
+        if (!item) return std::string("! ") + reader.problem();
+        const Result<TomlItem> array = reader.next();
+        EXPECT_TRUE(array.ok());
+        TomlArrayReader elements(array->value, TomlNumbers::as_written);
+        for (int i = 0; i < 2; ++i) {
+            const Result<TomlValue> element = elements.next();
+            EXPECT_TRUE(element.ok() && element->type == item->value.type);
+        }
+        EXPECT_EQ(elements.next().status(), Status::not_found);
+        const Span<const char> found = item->value.text;
+        return std::string(found.data(), static_cast<std::size_t>(found.size())) +
+               (item->value.type == TomlType::integer ? " integer" : " decimal");
+    };
+    EXPECT_EQ(number("25"), "25 integer");
+    EXPECT_EQ(number("-0"), "-0 integer");
+    EXPECT_EQ(number("536.454766207123456789"), "536.454766207123456789 decimal");
+    EXPECT_EQ(number("+1.5e-09"), "+1.5e-09 decimal");
+    EXPECT_EQ(number("1E400"), "1E400 decimal");
+    EXPECT_EQ(number("0e0"), "0e0 decimal");
+    for (const char* word : {"1.", "1.e5", "1e", "1e+", "1_000", "0x10", "1.5mm", "1e5.5", "-", "+", "1.2.3"})
+        EXPECT_EQ(number(word), "! expected a number such as 25, -2.5 or 1.5e-7") << word;
+    for (const char* word : {"01", "-00.5", "00e1"})
+        EXPECT_EQ(number(word), "! a number must not begin with 0") << word;
+    for (const char* word : {".5", "inf", "nan", "e5"})
+        EXPECT_EQ(number(word), "! expected a value: a \"string\", a number, true, false or an [array]")
+            << word;
+}
+
 TEST(TomlReader, SaysOutOfRangeOfNumbersItCannotHold) {
     for (const std::string& number :
          {std::to_string(max_decimal_units + 1), "-" + std::to_string(max_decimal_units) + ".000001",

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <support/board_corners.hpp>
-#include <support/board_scene.hpp>
+#include <support/camera_scene.hpp>
 
 namespace fovea::test {
 namespace {

@@ -31,6 +31,7 @@ public:
     /// Looks for the field: 512 strides of the radius, more where it ends, at most 4096.
     constexpr explicit LensInverse(const Camera<Scalar>& camera);
 
+    constexpr const Camera<Scalar>& camera() const { return camera_; }
     /// Of the field, at distance 1.
     constexpr Scalar radius() const { return radius_; }
 

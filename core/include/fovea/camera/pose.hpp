@@ -38,6 +38,10 @@ constexpr Pose<Scalar> inverse(const Pose<Scalar>& pose) {
     return {back, -(back * pose.translation)};
 }
 
+/// Whether a matrix is a rotation, to 2^-20 in each product of two of its rows: as from a file.
+template <class Scalar>
+constexpr bool is_rotation(const Matrix<3, 3, Scalar>& matrix);
+
 /// The rotation about an axis whose length is twice the tangent of half the angle: for small turns, the angle
 /// in radians. Every vector gives a rotation; half a turn is out of reach.
 ///
@@ -47,6 +51,16 @@ template <class Scalar>
 constexpr Matrix<3, 3, Scalar> rotation_about(const Vector<3, Scalar>& axis);
 
 // ---- Implementation ---------------------------------------------------------------
+
+template <class Scalar>
+constexpr bool is_rotation(const Matrix<3, 3, Scalar>& matrix) {
+    const Matrix<3, 3, Scalar> off = matrix * matrix.transposed() - Matrix<3, 3, Scalar>::identity();
+    const Scalar most = scalar_of<Scalar>(1, -20);
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            if (!(absolute(off(r, c)) < most)) return false;
+    return scalar_of<Scalar>(0) < determinant(matrix);
+}
 
 template <class Scalar>
 constexpr Matrix<3, 3, Scalar> rotation_about(const Vector<3, Scalar>& axis) {

@@ -45,6 +45,12 @@ struct TomlItem {
     TomlValue value;        ///< of a pair
 };
 
+/// How numbers are read.
+enum class TomlNumbers : std::uint8_t {
+    decimals,    ///< as Decimal; anything that it cannot hold is refused
+    as_written,  ///< text alone, number stays 0: for parse_real(); an exponent is allowed
+};
+
 /// Reads a text item by item.
 ///
 /// next() answers the items in order, then kind end for ever. After malformed or out_of_range, place() and
@@ -53,7 +59,8 @@ struct TomlItem {
 /// Errors  malformed for anything outside the subset; out_of_range for a number parse_decimal() refuses
 class TomlReader {
 public:
-    explicit constexpr TomlReader(Span<const char> text) : text_(text) {}
+    explicit constexpr TomlReader(Span<const char> text, TomlNumbers numbers = TomlNumbers::decimals)
+        : text_(text), numbers_(numbers) {}
 
     constexpr Result<TomlItem> next();
     constexpr TextPlace place() const { return place_; }
@@ -62,8 +69,8 @@ public:
 
 private:
     friend class TomlArrayReader;
-    constexpr TomlReader(Span<const char> text, TextPlace place)
-        : text_(text), line_(place.line), line_start_(1 - place.column) {}
+    constexpr TomlReader(Span<const char> text, TomlNumbers numbers, TextPlace place)
+        : text_(text), numbers_(numbers), line_(place.line), line_start_(1 - place.column) {}
 
     constexpr bool at_end() const { return at_ >= text_.size(); }
     constexpr char peek() const { return at_end() ? '\0' : text_[at_]; }
@@ -83,9 +90,11 @@ private:
     constexpr Result<TomlValue> value();
     constexpr Result<TomlValue> string();
     constexpr Result<TomlValue> word();
+    constexpr Result<TomlValue> number_of(TomlValue value);
     constexpr Result<TomlValue> array();
 
     Span<const char> text_;
+    TomlNumbers numbers_ = TomlNumbers::decimals;
     std::ptrdiff_t at_ = 0;
     int line_ = 1;
     std::ptrdiff_t line_start_ = 0;
@@ -94,11 +103,11 @@ private:
 };
 
 /// Walks the elements of a value of type array; not_found after the last one. The array was checked when it
-/// was read, so nothing else can go wrong.
+/// was read, with the same way of reading numbers, so nothing else can go wrong.
 class TomlArrayReader {
 public:
-    explicit constexpr TomlArrayReader(const TomlValue& array)
-        : reader_(array.text, {array.place.line, array.place.column + 1}) {}
+    explicit constexpr TomlArrayReader(const TomlValue& array, TomlNumbers numbers = TomlNumbers::decimals)
+        : reader_(array.text, numbers, {array.place.line, array.place.column + 1}) {}
     constexpr Result<TomlValue> next();
 
 private:
@@ -128,6 +137,30 @@ constexpr char toml_escape(char c) {
         case 'r': return '\r';
         default: return '\0';
     }
+}
+/// [+-]digits[.digits][e[+-]digits], all of the text.
+constexpr bool is_toml_number(Span<const char> text) {
+    std::ptrdiff_t at = 0;
+    const auto sign = [&] {
+        if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
+    };
+    const auto digits = [&] {
+        const std::ptrdiff_t start = at;
+        while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+        return at > start;
+    };
+    sign();
+    if (!digits()) return false;
+    if (at < text.size() && text[at] == '.') {
+        ++at;
+        if (!digits()) return false;
+    }
+    if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+        ++at;
+        sign();
+        if (!digits()) return false;
+    }
+    return at == text.size();
 }
 /// Control characters that TOML forbids in comments and strings.
 constexpr bool is_forbidden(char c) {
@@ -262,21 +295,34 @@ constexpr Result<TomlValue> TomlReader::word() {
     }
     if (value.text.empty())
         return fail("expected a value: a \"string\", a number, true, false or an [array]");
-    const Result<Decimal> number = parse_decimal(value.text);
-    if (number.status() == Status::out_of_range)
-        return fail("a number with more than six places or beyond a hundred million", value.place,
-                    Status::out_of_range);
+    return number_of(value);
+}
+
+constexpr Result<TomlValue> TomlReader::number_of(TomlValue value) {
     const char first = value.text[0];
-    if (!number && (first == '+' || first == '-' || (first >= '0' && first <= '9')))
-        return fail("expected a number such as 25 or -2.5, without exponent or unit", value.place);
-    if (!number)
-        return fail("expected a value: a \"string\", a number, true, false or an [array]", value.place);
-    value.number = *number;
+    const bool begins_so = first == '+' || first == '-' || (first >= '0' && first <= '9');
     value.type = TomlType::integer;
-    std::ptrdiff_t digits = value.text[0] == '+' || value.text[0] == '-' ? 1 : 0;
+    if (numbers_ == TomlNumbers::decimals) {
+        const Result<Decimal> number = parse_decimal(value.text);
+        if (number.status() == Status::out_of_range)
+            return fail("a number with more than six places or beyond a hundred million", value.place,
+                        Status::out_of_range);
+        if (!number && begins_so)
+            return fail("expected a number such as 25 or -2.5, without exponent or unit", value.place);
+        if (!number)
+            return fail("expected a value: a \"string\", a number, true, false or an [array]", value.place);
+        value.number = *number;
+    } else if (!begins_so) {
+        return fail("expected a value: a \"string\", a number, true, false or an [array]", value.place);
+    } else if (!detail::is_toml_number(value.text)) {
+        return fail("expected a number such as 25, -2.5 or 1.5e-7", value.place);
+    }
+    const std::ptrdiff_t digits = first == '+' || first == '-' ? 1 : 0;
     for (std::ptrdiff_t i = 0; i < value.text.size(); ++i)
-        if (value.text[i] == '.') value.type = TomlType::decimal;
-    if (value.text[digits] == '0' && digits + 1 < value.text.size() && value.text[digits + 1] != '.')
+        if (value.text[i] == '.' || value.text[i] == 'e' || value.text[i] == 'E')
+            value.type = TomlType::decimal;
+    if (value.text[digits] == '0' && digits + 1 < value.text.size() && value.text[digits + 1] >= '0' &&
+        value.text[digits + 1] <= '9')
         return fail("a number must not begin with 0", value.place);
     return value;
 }
