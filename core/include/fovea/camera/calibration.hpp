@@ -38,7 +38,8 @@ struct IntrinsicsOptions {
 /// Why there is no calibration.
 enum class CalibrationProblem : std::uint8_t {
     none,
-    bad_argument,  ///< an empty or too large picture, more than 4096 views, a camera without focal lengths
+    bad_argument,  ///< an empty or too large picture, more than 4096 views or 2^20 points, places of a board
+                   ///< 2^26 units from their mean, a camera without focal lengths
     scratch_too_small,  ///< less scratch, or room for fewer views, than is asked for
     too_few_views,      ///< fewer views than the intrinsics need: one with a free principal point, or none
     size_mismatch,      ///< not as many points of the board as are seen
