@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <calibrate/calibrate_command.hpp>
 #include <camera/camera_command.hpp>
 #include <camera/rectify_command.hpp>
 #include <camera/undistort_command.hpp>
@@ -41,14 +42,23 @@ struct Entry {
 
 template <class Io>
 std::vector<Entry<Io>> commands() {
-    return {{gauge_help(), gauge_command<Io>},         {teach_help(), teach_command<Io>},
-            {compile_help(), compile_command<Io>},     {read_help(), read_command<Io>},
-            {make_code_help(), make_code_command<Io>}, {make_part_help(), make_part_command<Io>},
-            {undistort_help(), undistort_command<Io>}, {rectify_help(), rectify_command<Io>},
-            {camera_help(), camera_command<Io>},       {op_help(), op_command<Io>},
-            {sheet_help(), sheet_command<Io>},         {ops_help(), ops_command<Io>},
-            {info_help(), info_command<Io>},           {compare_help(), compare_command<Io>},
-            {probe_help(), probe_command<Io>},         {doctor_help(), doctor_command<Io>}};
+    return {{gauge_help(), gauge_command<Io>},
+            {teach_help(), teach_command<Io>},
+            {compile_help(), compile_command<Io>},
+            {read_help(), read_command<Io>},
+            {make_code_help(), make_code_command<Io>},
+            {make_part_help(), make_part_command<Io>},
+            {calibrate_help(), calibrate_command<Io>},
+            {undistort_help(), undistort_command<Io>},
+            {rectify_help(), rectify_command<Io>},
+            {camera_help(), camera_command<Io>},
+            {op_help(), op_command<Io>},
+            {sheet_help(), sheet_command<Io>},
+            {ops_help(), ops_command<Io>},
+            {info_help(), info_command<Io>},
+            {compare_help(), compare_command<Io>},
+            {probe_help(), probe_command<Io>},
+            {doctor_help(), doctor_command<Io>}};
 }
 
 template <class Io>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The pictures of docs/operators, made with fovea's own operators; the same bytes on every machine. After a
-// change: build/host/tests/pictures docs/pictures
+// The pictures of docs/operators and of docs/calibrate.md, made with fovea's own operators; the same bytes on
+// every machine. After a change: build/host/tests/pictures docs/pictures
 
 #include <cstdint>
 #include <cstdio>
@@ -25,6 +25,7 @@
 #include <fovea/statistics/histogram.hpp>
 #include <fovea/warp/bilinear.hpp>
 
+#include "calibration.hpp"
 #include "paper.hpp"
 #include "scene.hpp"
 
@@ -365,5 +366,6 @@ int main(int argc, char** argv) {
     circle_fit(folder + "fit_circle.png");
     drawing(folder + "draw.png");
     scene(folder + "scene.png");
+    coverage(folder + "coverage.png");
     return 0;
 }

@@ -113,7 +113,7 @@ inline void measure_ransac(Workspace&, Digest& digest) {
     if (all) digest.add(all->plane.normal, all->plane.offset, all->rms);
     const auto most = fit_plane_ransac(Span<const SpacePoint>(plane), Real::from_int(6), options);
     if (most) digest.add(most->plane.normal, most->plane.offset, most->rms);
-    if (most) digest.add(distance_from(most->plane, detail::vector_of<Real>(plane[0])));
+    if (most) digest.add(distance_from(most->plane, vector_of<Real>(plane[0])));
 }
 
 }  // namespace fovea::golden

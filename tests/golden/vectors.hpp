@@ -12,6 +12,8 @@
 #include <fovea/base/span.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <golden/base_vectors.hpp>
+#include <golden/board_vectors.hpp>
+#include <golden/calibration_vectors.hpp>
 #include <golden/camera_vectors.hpp>
 #include <golden/code_bar_vectors.hpp>
 #include <golden/code_blur_vectors.hpp>
@@ -32,6 +34,7 @@
 #include <golden/motion_vectors.hpp>
 #include <golden/number_vectors.hpp>
 #include <golden/operator_vectors.hpp>
+#include <golden/pose_vectors.hpp>
 #include <golden/segment_vectors.hpp>
 #include <golden/statistics_vectors.hpp>
 #include <golden/stereo_vectors.hpp>
@@ -54,6 +57,7 @@ inline constexpr Vector vectors[] = {
     {"base/order", base_order},
     {"base/random", base_random},
     {"number/angle_and_fixed", number_angle},
+    {"number/arctangent", number_arctangent},
     {"number/decimal", number_decimal},
     {"number/int128", number_int128},
     {"number/integer", number_integer},
@@ -62,7 +66,10 @@ inline constexpr Vector vectors[] = {
     {"number/root", number_root},
     {"number/trigonometry", number_trigonometry},
     {"number/wide", number_wide},
+    {"linear/cubic", linear_cubic},
+    {"linear/block_equations", linear_block_equations},
     {"linear/eigen", linear_eigen},
+    {"linear/levenberg_marquardt", linear_levenberg_marquardt},
     {"linear/matrices", linear_matrices},
     {"linear/solvers", linear_solvers},
     {"simd/lanes", simd_lanes},
@@ -132,11 +139,23 @@ inline constexpr Vector vectors[] = {
     {"measure/run_widths", measure_run_widths},
     {"light_section/line_peaks", light_section_line_peaks},
     {"motion/blocks", motion_blocks},
+    {"camera/alignment", camera_alignment},
+    {"camera/calibrate_planar", camera_calibrate_planar},
+    {"camera/find_pose", camera_find_pose},
+    {"camera/fisheye", camera_fisheye},
+    {"camera/checkerboard", camera_checkerboard},
+    {"camera/circle_grid", camera_circle_grid},
     {"camera/lens", camera_lens},
+    {"camera/object_pose", camera_object_pose},
     {"camera/packed", camera_packed},
+    {"camera/planar_pose", camera_planar_pose},
     {"camera/poses", camera_poses},
+    {"camera/projection", camera_projection},
+    {"camera/projection_derivatives", camera_projection_derivatives},
     {"camera/undistortion", camera_undistortion},
+    {"camera/view_fit", camera_view_fit},
     {"camera/views", camera_views},
+    {"stereo/calibrate_stereo", stereo_calibrate_stereo},
     {"stereo/epipolar", stereo_epipolar},
     {"stereo/essential", stereo_essential},
     {"stereo/essential_ransac", stereo_essential_ransac},

@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <fovea/camera/calibrate_planar.hpp>
+#include <fovea/camera/checkerboard.hpp>
+#include <fovea/camera/circle_grid.hpp>
 #include <fovea/catalogue/catalogue.hpp>
 #include <fovea/code/bar_stream.hpp>
 #include <fovea/code/read_bars.hpp>
@@ -22,6 +25,7 @@
 #include <fovea/measure/edge_probe.hpp>
 #include <fovea/motion/block_motion.hpp>
 #include <fovea/segment/connected_components.hpp>
+#include <fovea/stereo/calibrate_stereo.hpp>
 #include <fovea/warp/remap.hpp>
 
 using namespace fovea;
@@ -75,6 +79,14 @@ int main() {
          [](Size size) { return connected_components_scratch(size.width, 64); }},
         {"find_circles of 10 to 100 px", [](Size size) { return find_circles_scratch(size, {}); }},
         {"block_motion, blocks of 16", [](Size size) { return block_motion_scratch(size, 16); }},
+        {"find_checkerboard, 9x6",
+         [](Size size) {
+             return find_checkerboard_scratch(size, {9, 6}, {});
+         }},
+        {"find_circle_grid, 4x11",
+         [](Size size) {
+             return find_circle_grid_scratch(size, {4, 11}, {});
+         }},
         {"read_bars", read_bars_scratch},
         {"BarStream", [](Size size) { return bar_stream_scratch(size.width); }},
         {"the grid of an undistortion map",
@@ -89,6 +101,8 @@ int main() {
         {"measure_feature", [](Size size) { return measure_feature_scratch(size); }},
         {"gauge, 1 part", [](Size size) { return gauge_scratch(size, {}, 1); }},
         {"gauge, 16 parts", [](Size size) { return gauge_scratch(size, {}, 16); }},
+        {"calibrate_planar, 13 views", [](Size) { return calibrate_planar_scratch(13); }},
+        {"calibrate_stereo, 13 pairs", [](Size) { return calibrate_stereo_scratch(13); }},
         {"decode_jpeg to Gray8", [](Size) { return jpeg_gray_scratch; }},
         {"decode_jpeg to Rgb888, at most", [](Size size) { return jpeg_scratch(size); }},
         {"decode_png, 8 bits gray", [](Size size) { return png_reader_scratch(size, 8); }},

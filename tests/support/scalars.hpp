@@ -31,6 +31,24 @@ struct ScalarTraits<double> {
     static std::int64_t rounded(double a, int bits) { return std::llround(std::ldexp(a, bits)); }
 };
 
+template <>
+struct ScalarTraits<long double> {
+    static long double from_int(std::int64_t value, int exponent) {
+        return std::ldexp(static_cast<long double>(value), exponent);
+    }
+    static long double from_int(Int128 value, int exponent) {
+        const Int128 size = value.negative() ? -value : value;
+        const auto high = static_cast<long double>((size >> 63).low_word());
+        const auto low = static_cast<long double>((size - ((size >> 63) << 63)).low_word());
+        const long double both = std::ldexp(high, exponent + 63) + std::ldexp(low, exponent);
+        return value.negative() ? -both : both;
+    }
+    static long double square_root(long double a) { return std::sqrt(std::abs(a)); }
+    static long double absolute(long double a) { return std::abs(a); }
+    static long double scale(long double a, int bits) { return std::ldexp(a, bits); }
+    static std::int64_t rounded(long double a, int bits) { return std::llround(std::ldexp(a, bits)); }
+};
+
 namespace test {
 
 inline long double value_of(Real number) {
@@ -39,6 +57,7 @@ inline long double value_of(Real number) {
     return number.negative() ? -size : size;
 }
 inline double value_of(double number) { return number; }
+inline long double value_of(long double number) { return number; }
 
 /// The Real of a double, exact.
 inline Real real_of(double number) {

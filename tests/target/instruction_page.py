@@ -102,7 +102,8 @@ not in them. Frames have noise of 16 levels; the lines of noise have nothing els
 Instructions for a call, with [`Real`](operators/foundations.md#numbers), compiled by -Os; of numbers the mean of 256 calls, with the loop
 around them.
 """)
-    geometry = {lane: counts(f"geometry-{lane}") for lane in ("cortex-m0", "cortex-m4", "rv32imac")}
+    geometry = {lane: {**counts(f"geometry-{lane}"), **counts(f"calibration-{lane}")}
+                for lane in ("cortex-m0", "cortex-m4", "rv32imac")}
     print("| | " + " | ".join(LANES[lane] for lane in geometry) + " |")
     print("|---" * (len(geometry) + 1) + "|")
     names = list(geometry["cortex-m0"])

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <support/command_calibrate.hpp>
 #include <support/commands.hpp>
 #include <support/test_io.hpp>
 #include <tool/commands.hpp>
@@ -30,8 +31,8 @@ protected:
     TestIo io;
 };
 
-const Words names = {"gauge", "teach", "compile", "make-part", "undistort", "rectify", "camera",
-                     "op",    "ops",   "info",    "compare",   "probe",     "doctor"};
+const Words names = {"gauge",  "teach", "compile", "make-part", "calibrate", "undistort", "rectify",
+                     "camera", "op",    "ops",     "info",      "compare",   "probe",     "doctor"};
 
 TEST_F(Tool, ListsItsCommandsWhenAskedForHelp) {
     for (const char* word : {"--help", "-h", "help"}) {

@@ -132,7 +132,7 @@ TEST(FitPlaneTest, AsInDoubleAndNoTurnFitsBetter) {
         for (int i = 0; i < 3; ++i)
             EXPECT_NEAR(static_cast<double>(value_of(fit->plane.normal[i])), twin->plane.normal[i], 1e-12);
         for (const SpacePoint point : points) {
-            const double distance = distance_from(twin->plane, detail::vector_of<double>(point));
+            const double distance = distance_from(twin->plane, vector_of<double>(point));
             sum += distance * distance;
         }
         EXPECT_NEAR(static_cast<double>(value_of(fit->rms)), std::sqrt(sum / 30), 1e-9);
@@ -142,11 +142,10 @@ TEST(FitPlaneTest, AsInDoubleAndNoTurnFitsBetter) {
                 normal[axis] += turn;
                 // With its best offset: through the mean.
                 double mean[2] = {0, 0};
-                for (const SpacePoint point : points)
-                    mean[0] += dot(normal, detail::vector_of<double>(point)) / 30;
+                for (const SpacePoint point : points) mean[0] += dot(normal, vector_of<double>(point)) / 30;
                 double other = 0;
                 for (const SpacePoint point : points) {
-                    const double distance = dot(normal, detail::vector_of<double>(point)) - mean[0];
+                    const double distance = dot(normal, vector_of<double>(point)) - mean[0];
                     other += distance * distance / dot(normal, normal);
                 }
                 EXPECT_GT(other, sum);
@@ -176,7 +175,7 @@ TEST(FitPlaneTest, TheLargestComponentOfTheNormalIsAboveZero) {
             if (fit->plane.normal[largest].absolute() < fit->plane.normal[i].absolute()) largest = i;
         EXPECT_LT(Real(), fit->plane.normal[largest]) << k;
         for (const SpacePoint point : points)
-            EXPECT_LT(value_of(distance_from(fit->plane, detail::vector_of<Real>(point)).absolute()), 1e-12);
+            EXPECT_LT(value_of(distance_from(fit->plane, vector_of<Real>(point)).absolute()), 1e-12);
     }
 }
 

@@ -139,6 +139,25 @@ TEST(FitFundamental, RefusesPlanesLinesAndPoints) {
     EXPECT_EQ(fit_fundamental(span_of(line), span_of(one)).status(), Status::degenerate);
 }
 
+TEST(FitFundamental, WantsEigenvaluesThatAreApart) {
+    // Of 64 pairs: the least, the one before, and the one before that.
+    const auto status = [](double least, double second, double third) {
+        Matrix<9, 9> sums;
+        for (int i = 0; i < 9; ++i) sums(i, i) = Real::from_int(1000);
+        sums(2, 2) = real_of(least);
+        sums(5, 5) = real_of(second);
+        sums(7, 7) = real_of(third);
+        const Result<Matrix<3, 3>> f = detail::least_direction(sums, Real::from_ratio(1, 2), 64);
+        EXPECT_TRUE(!f || (*f)(0, 2).absolute() == Real::one());
+        return f.status();
+    };
+    EXPECT_EQ(status(1, 1.26, 25), Status::ok);
+    EXPECT_EQ(status(1, 1.24, 25), Status::degenerate);
+    EXPECT_EQ(status(1, 1.26, 23), Status::degenerate);
+    EXPECT_EQ(status(0, 0.51, 25), Status::ok);
+    EXPECT_EQ(status(0, 0.49, 25), Status::degenerate);
+}
+
 TEST(FitFundamental, RefusesWrongInput) {
     Pixels left(20);
     Pixels right(19);

@@ -43,6 +43,7 @@ void expect_rectified(const Rectification<>& found, const StereoCamera<>& pair, 
         ASSERT_GT(plain(rotation(2, 2)), 0.8);
     }
     const int axis = found.axis == StereoAxis::x ? 0 : 1;
+    const Triangulator<> eyes(found.cameras());
     for (int i = 0; i < 6; ++i) {
         const int x = random.between(-300, 300);
         const int y = random.between(-300, 300);
@@ -65,8 +66,7 @@ void expect_rectified(const Rectification<>& found, const StereoCamera<>& pair, 
             ASSERT_NEAR(plain(*depth_of_disparity(found.camera.fx, found.baseline, real_of(disparity))),
                         plain(again[2]), 1e-12);
         }
-        const RayMeeting<> meeting =
-            *Triangulator<>(found.cameras()).midpoint(at, place_of<Real>(seen.right[0], seen.right[1]));
+        const RayMeeting<> meeting = *eyes.midpoint(at, place_of<Real>(seen.right[0], seen.right[1]));
         ASSERT_LE(largest_difference(meeting.place, turned), 1e-9);
     }
 }
@@ -211,6 +211,8 @@ Vector<2, double> source_of(const Camera<>& camera, const Matrix<3, 3>& rotation
 TEST(Rectify, ZoomsSoThatAllIsValidOrAllIsKept) {
     for (const ToolkitRig* rig : {&scene_rig, &wide_rig}) {
         const StereoCamera<> pair = rig->cameras<Real>();
+        const LensInverse<> left_lens(pair.left);
+        const LensInverse<> right_lens(pair.right);
         for (const Size size : {picture, Size{320, 200}, Size{900, 480}}) {
             RectifyOptions options = with(Zoom::valid);
             options.new_size = size;
@@ -240,7 +242,7 @@ TEST(Rectify, ZoomsSoThatAllIsValidOrAllIsKept) {
             double beyond = -1e9;
             for (const bool left : {true, false})
                 for (int i = 0; i < 4; ++i) {
-                    const LensInverse<> lens(left ? pair.left : pair.right);
+                    const LensInverse<>& lens = left ? left_lens : right_lens;
                     const Vector<3> ray = *lens.ray(place_of<Real>(i % 2 * 639, i / 2 * 479));
                     const Vector<2> to = *project(all.camera, (left ? all.left : all.right) * ray);
                     beyond = std::max({beyond, -plain(to[0]), -plain(to[1]), plain(to[0]) - (size.width - 1),

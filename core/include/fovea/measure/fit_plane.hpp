@@ -11,6 +11,7 @@
 #include <fovea/linear/eigen.hpp>
 #include <fovea/linear/matrix.hpp>
 #include <fovea/match/point_pair.hpp>
+#include <fovea/match/point_spread.hpp>
 #include <fovea/match/ransac.hpp>
 #include <fovea/number/int128.hpp>
 #include <fovea/number/integer.hpp>
@@ -64,12 +65,6 @@ constexpr Result<PlaneFit<Scalar>> fit_plane_ransac(Span<const SpacePoint> point
 // ---- Implementation ---------------------------------------------------------------
 
 namespace detail {
-
-template <class Scalar>
-constexpr Vector<3, Scalar> vector_of(SpacePoint point) {
-    return Vector<3, Scalar>(scalar_of<Scalar>(point.x), scalar_of<Scalar>(point.y),
-                             scalar_of<Scalar>(point.z));
-}
 
 /// The plane through a place, square to a direction that is not 0.
 template <class Scalar>
@@ -153,14 +148,14 @@ constexpr Result<PlaneFit<Scalar>> fit_plane_ransac(Span<const SpacePoint> point
                                                     const RansacOptions& options) {
     if (!(scalar_of<Scalar>(0) < tolerance)) return Status::bad_argument;
     const auto within = [&](const Plane<Scalar>& plane, SpacePoint point) {
-        return absolute(distance_from(plane, detail::vector_of<Scalar>(point))) <= tolerance;
+        return absolute(distance_from(plane, vector_of<Scalar>(point))) <= tolerance;
     };
     const auto best = ransac<3, Plane<Scalar>>(
         points.size(), options,
         [&](const std::ptrdiff_t(&chosen)[3]) -> Result<Plane<Scalar>> {
-            const Vector<3, Scalar> a = detail::vector_of<Scalar>(points[chosen[0]]);
-            const Vector<3, Scalar> b = detail::vector_of<Scalar>(points[chosen[1]]) - a;
-            const Vector<3, Scalar> c = detail::vector_of<Scalar>(points[chosen[2]]) - a;
+            const Vector<3, Scalar> a = vector_of<Scalar>(points[chosen[0]]);
+            const Vector<3, Scalar> b = vector_of<Scalar>(points[chosen[1]]) - a;
+            const Vector<3, Scalar> c = vector_of<Scalar>(points[chosen[2]]) - a;
             const Vector<3, Scalar> normal = cross(b, c);
             // Sides that differ in direction by less than 2^-20 make no plane.
             if (dot(normal, normal) <= scale(dot(b, b) * dot(c, c), -40)) return Status::degenerate;

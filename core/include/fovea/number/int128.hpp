@@ -8,6 +8,7 @@
 
 #include <fovea/base/assert.hpp>
 #include <fovea/number/integer.hpp>
+#include <fovea/number/wide.hpp>
 
 namespace fovea {
 
@@ -96,13 +97,15 @@ constexpr std::int64_t multiply_divide(std::int64_t a, std::int64_t b, std::int6
 // ---- Implementation ---------------------------------------------------------------
 
 constexpr Int128 Int128::product_of(std::uint64_t x, std::uint64_t y) {
-    const std::uint64_t x_low = x & 0xffffffffu;
-    const std::uint64_t y_low = y & 0xffffffffu;
-    const std::uint64_t bottom = x_low * y_low;
+    const auto x_low = static_cast<std::uint32_t>(x);
+    const auto y_low = static_cast<std::uint32_t>(y);
+    const auto x_high = static_cast<std::uint32_t>(x >> 32);
+    const auto y_high = static_cast<std::uint32_t>(y >> 32);
+    const std::uint64_t bottom = multiply_words(x_low, y_low);
     // At most (2^32-1)^2 + 2^32-1 < 2^64, and the same once more for the second middle product.
-    const std::uint64_t middle = (x >> 32) * y_low + (bottom >> 32);
-    const std::uint64_t second = x_low * (y >> 32) + (middle & 0xffffffffu);
-    return Int128((x >> 32) * (y >> 32) + (middle >> 32) + (second >> 32),
+    const std::uint64_t middle = multiply_words(x_high, y_low) + (bottom >> 32);
+    const std::uint64_t second = multiply_words(x_low, y_high) + (middle & 0xffffffffu);
+    return Int128(multiply_words(x_high, y_high) + (middle >> 32) + (second >> 32),
                   second << 32 | (bottom & 0xffffffffu));
 }
 

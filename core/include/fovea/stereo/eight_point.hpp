@@ -30,9 +30,9 @@ namespace fovea {
 /// Errors    size_mismatch; bad_argument for fewer than 8 pairs or more than 2^20; out_of_range beyond the
 ///           range; degenerate where the pairs leave more than one matrix open: those of a plane, of a line,
 ///           of the corners of a box, of cameras at one place. The eigenvalue before the least must be more
-///           than errors of 1/16 px make, and twice the least; the one before that 16 + 512 / n times, with n
-///           pairs. A plane whose pixels are wrong by more than 1/16 px is seen to be one from about 16 pairs
-///           on; with fewer it may pass
+///           than errors of 1/16 px make, and a quarter more than the least; the one before that 16 + 512 / n
+///           times, with n pairs. A plane whose pixels are wrong by more than 1/16 px is seen to be one from
+///           about 16 pairs on; with fewer it may pass
 /// Source    Hartley, "In Defense of the Eight-Point Algorithm", IEEE PAMI 19(6), 1997, with shifts in place
 ///           of the root of 2, and the nearest matrix of rank 2
 template <class Scalar = Real>
@@ -97,9 +97,9 @@ constexpr Vector<9, Scalar> epipolar_equation(const Vector<2, Scalar>& left, con
                              right[1] * left[1], right[1], left[0], left[1], scalar_of<Scalar>(1));
 }
 
-/// The eigenvector of the least eigenvalue; degenerate if the one before is not above a limit and twice the
-/// least. Of a plane, three are alike: of 200 random ones with noise, one of a hundred had the third more
-/// than 16 + 512 / n times the least, from 25 pairs on.
+/// The eigenvector of the least eigenvalue; degenerate if the one before is not above a limit and a quarter
+/// more than the least. Of a plane, three are alike: of 200 random ones with noise, one of a hundred had the
+/// third more than 16 + 512 / n times the least, from 25 pairs on.
 template <class Scalar>
 constexpr Result<Matrix<3, 3, Scalar>> least_direction(Matrix<9, 9, Scalar>& sums, Scalar limit,
                                                        std::int64_t used) {
@@ -108,7 +108,7 @@ constexpr Result<Matrix<3, 3, Scalar>> least_direction(Matrix<9, 9, Scalar>& sum
     if (status != Status::ok) return status;
     const Scalar least = absolute(sums(8, 8));
     const Scalar times = scalar_of<Scalar>(16) + scalar_of<Scalar>(512) / scalar_of<Scalar>(used);
-    if (!(limit < sums(7, 7)) || !(scale(least, 1) < sums(7, 7)) || !(least * times < sums(6, 6)))
+    if (!(limit < sums(7, 7)) || !(least + scale(least, -2) < sums(7, 7)) || !(least * times < sums(6, 6)))
         return Status::degenerate;
     Matrix<3, 3, Scalar> f;
     for (int i = 0; i < 9; ++i) f(i / 3, i % 3) = vectors(i, 8);

@@ -6,6 +6,7 @@
 #include <fovea/base/status.hpp>
 #include <fovea/camera/camera.hpp>
 #include <fovea/camera/pose.hpp>
+#include <fovea/camera/projection_matrix.hpp>
 #include <fovea/linear/matrix.hpp>
 #include <fovea/linear/svd.hpp>
 #include <fovea/number/scalar.hpp>
@@ -39,13 +40,6 @@ constexpr StereoCamera<Scalar> swapped(const StereoCamera<Scalar>& cameras) {
     return {cameras.right, cameras.left, inverse(cameras.right_from_left)};
 }
 
-/// K [R | t]: takes places (x, y, z, 1) of the world to pixels, times their depth. The lens is not part of
-/// it.
-///
-/// Source  book eq. 2.5
-template <class Scalar>
-constexpr Matrix<3, 4, Scalar> projection_matrix(const Camera<Scalar>& camera, const Pose<Scalar>& pose);
-
 // ---- Implementation ---------------------------------------------------------------
 
 template <class Scalar>
@@ -54,18 +48,6 @@ constexpr Result<Pose<Scalar>> right_from_left(const Pose<Scalar>& left, const P
         nearest_rotation(right.rotation * left.rotation.transposed());
     if (!rotation) return rotation.status();
     return Pose<Scalar>{*rotation, right.translation - *rotation * left.translation};
-}
-
-template <class Scalar>
-constexpr Matrix<3, 4, Scalar> projection_matrix(const Camera<Scalar>& camera, const Pose<Scalar>& pose) {
-    Matrix<3, 4, Scalar> result;
-    for (int c = 0; c < 4; ++c) {
-        const Vector<3, Scalar> column = c < 3 ? pose.rotation.column(c) : pose.translation;
-        result(0, c) = camera.fx * column[0] + camera.cx * column[2];
-        result(1, c) = camera.fy * column[1] + camera.cy * column[2];
-        result(2, c) = column[2];
-    }
-    return result;
 }
 
 }  // namespace fovea
