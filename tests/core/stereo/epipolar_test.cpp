@@ -133,6 +133,10 @@ TEST(FundamentalMatrix, RefusesWhatHasNone) {
     Matrix<3, 3> one;
     one(1, 2) = Real::one();
     EXPECT_EQ(epipoles(one).status(), Status::degenerate);
+    one(0, 0) = Real::from_int(1, -42);
+    EXPECT_EQ(epipoles(one).status(), Status::degenerate);
+    one(0, 0) = Real::from_int(1, -38);
+    EXPECT_TRUE(epipoles(one));
     EXPECT_EQ(sampson_distance(Matrix<3, 3>(), pixel(1, 2), pixel(3, 4)).status(), Status::degenerate);
 }
 

@@ -439,7 +439,7 @@ TEST(FitEssential, RefusesWrongInput) {
 TEST(RaysOf, AreThoseOfTheLens) {
     const Camera<> camera = camera_of<Real>(wide_rig.left);
     const LensInverse<> lens(camera);
-    const Pixels pixels = {pixel_near(0, 0), pixel_near(320.25, 240), pixel_near(639, 479)};
+    const Pixels pixels = {pixel_near(320.25, 240), pixel_near(0, 0), pixel_near(639, 479)};
     const Rays rays = rays_of_pixels(lens, pixels);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vector<3> ray = *lens.ray(vector_of<Real>(pixels[i]));

@@ -59,6 +59,8 @@ void expect_rectified(const Rectification<>& found, const StereoCamera<>& pair, 
         const Vector<2> at = place_of<Real>(seen.left[0], seen.left[1]);
         const Vector<3> again = *found.place(at, real_of(disparity));
         ASSERT_LE(largest_difference(again, turned), 1e-9);
+        ASSERT_EQ(found.place(at, -real_of(disparity)).status(), Status::out_of_range);
+        ASSERT_EQ(found.place(at, Real()).status(), Status::out_of_range);
         const Vector<4> whole =
             found.depth_matrix() * Vector<4>(at[0], at[1], real_of(disparity), Real::one());
         for (int k = 0; k < 3; ++k) ASSERT_NEAR(plain(whole[k] / whole[3]), plain(again[k]), 1e-12);
@@ -367,10 +369,17 @@ TEST(Rectify, RefusesWhatCannotBeRectified) {
         other.right_from_left.rotation =
             Matrix<3, 3>(-one, Real(), Real(), Real(), one, Real(), Real(), Real(), -one);
         EXPECT_EQ(status(other), method == Method::bouguet ? Status::degenerate : Status::out_of_range);
-        // Cameras that look away from each other: what is between them neither sees.
+        // Cameras that look away from each other, by 25 degrees each: what is between them neither sees.
         other = pair;
-        other.right_from_left.rotation = rotation_about(place_of<Real>(0, -0.808, 0));
+        other.right_from_left.rotation = rotation_about(place_of<Real>(0, -0.9326, 0));
+        other.right_from_left.translation =
+            rotation_about(place_of<Real>(0, -0.4434, 0)) * pair.right_from_left.translation;
+        EXPECT_EQ(status(other), Status::ok);
         EXPECT_EQ(status(other, Zoom::valid), Status::out_of_range);
+        // One by 40 degrees: straight ahead is beside the picture.
+        other = pair;
+        other.right_from_left.rotation = rotation_about(place_of<Real>(0, -0.728, 0));
+        EXPECT_EQ(status(other, Zoom::all), Status::out_of_range);
     }
 }
 
