@@ -100,7 +100,7 @@ inline std::string real_text(Real value, int digits) {
 /// The shortest text that is read as the same number.
 inline std::string exact_text(Real value) {
     for (int digits = 1; digits < whole_real_digits; ++digits) {
-        const std::string text = real_text(value, digits);
+        std::string text = real_text(value, digits);
         const Result<Real> read = parse_real(span_of(text));
         if (read && *read == value) return text;
     }

@@ -150,10 +150,13 @@ TEST_F(CameraCommands, UndistortSaysWhatIsWrong) {
 
 TEST_F(CameraCommands, RectifyPutsAThingIntoOneRowOfBothPictures) {
     // A dot 1000 in front of the pair, 30 to the right and 20 down, as each camera sees it.
-    const auto dotted = [&](const char* name, double dx, double dy) {
+    // The right one looks 2.9 degrees further down.
+    io.put("turned.toml",
+           pair_toml + "rotation = [1, 0, 0, 0, 0.99875078, -0.04996877, 0, 0.04996877, 0.99875078]\n");
+    const auto dotted = [&](const char* name, double x_at, double y_at, double depth) {
         Picture<Gray8> picture({120, 90});
         std::fill(picture.pixels.begin(), picture.pixels.end(), Gray8{255});
-        const double u = (300 + dx) / 1000, v = (200 + dy) / 1000;
+        const double u = x_at / depth, v = y_at / depth;
         const double r = 1 - 0.2 * (u * u + v * v);
         const double cx = 59.5 + 100 * u * r, cy = 44.5 + 100 * v * r;
         for (int y = 0; y < 90; ++y)
@@ -163,11 +166,11 @@ TEST_F(CameraCommands, RectifyPutsAThingIntoOneRowOfBothPictures) {
         std::string problem;
         ASSERT_TRUE(apps::save_picture(io.storage(), name, picture, problem));
     };
-    dotted("l.pgm", 0, 0);
-    dotted("r.pgm", -50, 2);
-    ASSERT_EQ(
-        rectify({"l.pgm", "r.pgm", "--camera", "pair.toml", "-o", "lo.png,ro.png", "--picture", "both.png"}),
-        apps::exit_ok);
+    dotted("l.pgm", 300, 200, 1000);
+    dotted("r.pgm", 250, 2 + 0.99875078 * 200 - 0.04996877 * 1000, 0.04996877 * 200 + 0.99875078 * 1000);
+    ASSERT_EQ(rectify({"l.pgm", "r.pgm", "--camera", "turned.toml", "-o", "lo.png,ro.png", "--picture",
+                       "both.png"}),
+              apps::exit_ok);
     EXPECT_EQ(io.errors(), "");
     EXPECT_NE(io.out.find("a thing is in one row of both"), std::string::npos);
     const auto middle = [&](const char* name) {
