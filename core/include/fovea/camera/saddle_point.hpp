@@ -164,8 +164,8 @@ public:
     /// In 1/256 px.
     std::int32_t half_width() const { return half_width_; }
     std::int32_t half_height() const { return half_height_; }
-    /// 2^10 (1 - a^2 - b^2) at a distance in 1/2048 px from the middle, below 0 outside of the window. Distances
-    /// are below 2^18 and factors at most 2^30.
+    /// 2^10 (1 - a^2 - b^2) at a distance in 1/2048 px from the middle, below 0 outside of the window.
+    /// Distances are below 2^18 and factors at most 2^30.
     std::int64_t part(std::int64_t dx, std::int64_t dy) const {
         const std::int64_t sum = ((dx * dx) >> 7) * xx_ + ((dx * dy) >> 7) * xy_ + ((dy * dy) >> 7) * yy_;
         return 1024 - (sum >> 35);
@@ -223,7 +223,8 @@ inline Status SaddleSums::step(std::int64_t& step_x, std::int64_t& step_y) const
 }
 
 inline Status SurfaceSums::step(std::int64_t& step_x, std::int64_t& step_y) const {
-    // Second derivatives are M S^-1 with M = sum g d', S = sum d d'; the step is -S M^-1 of the mean gradient.
+    // Second derivatives are M S^-1 with M = sum g d' and S = sum d d'; the step is -S M^-1 of the mean
+    // gradient.
     const Real a = Real::from_int(gx_x);
     const Real b = Real::from_int(gx_y);
     const Real c = Real::from_int(gy_x);
