@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Rendered boards, seen by a camera of known place: corners and circles whose truth is known. Host tests only.
+// Rendered boards, seen by a camera of known place: corners and circles whose truth is known. Host tests
+// only.
 #pragma once
 
 #include <algorithm>

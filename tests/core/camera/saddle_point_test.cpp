@@ -46,7 +46,8 @@ TEST(SaddlePoint, IsTheMiddleOfFourSquares) {
     EXPECT_EQ(*found, at(9.5, 8.5));
 }
 
-// Half a grey level of 200 and half of 1/256 px are 0.005 px in each direction; the last step may leave as much.
+// Half a grey level of 200 and half of 1/256 px are 0.005 px in each direction; the last step may leave as
+// much.
 TEST(SaddlePoint, IsFoundWithinTwoHundredthsOfAPixel) {
     Random random(3);
     for (const double blur : {0.7, 1.0, 2.0, 4.0}) {
