@@ -196,6 +196,34 @@ TEST(Checkerboard, IsNotFoundInNoiseGridsAndDots) {
     }
 }
 
+TEST(Checkerboard, HasSquaresOfTwoColoursBetweenItsCorners) {
+    BoardScene scene;
+    scene.picture = {160, 120};
+    scene.step = 13;
+    Found found = find(draw(scene).view(), scene.board);
+    ASSERT_EQ(found.status, Status::ok);
+    const detail::BoardPlaces places({found.corners.data(), 54}, scene.board);
+    EXPECT_TRUE(detail::is_even(places));
+    EXPECT_TRUE(detail::is_checkered(draw(scene).view(), places, false));
+    EXPECT_FALSE(detail::is_checkered(draw(scene).view(), places, true));
+    EXPECT_FALSE(detail::is_part(draw(scene).view(), places, false));
+    // The same places on dots, and on nothing.
+    scene.pattern = BoardPattern::circles;
+    EXPECT_FALSE(detail::is_checkered(draw(scene).view(), places, false));
+    BoardPicture flat(scene.picture);
+    EXPECT_FALSE(detail::is_checkered(flat.view(), places, false));
+    // A place that is off by a third of a step.
+    found.corners[20].x += SubPixel::from_int(5);
+    EXPECT_FALSE(detail::is_even(places));
+    // Eight by six of nine by six.
+    scene.pattern = BoardPattern::checkerboard;
+    found = find(draw(scene).view(), scene.board);
+    std::vector<SubPixelPoint> part;
+    for (int k = 0; k < 54; ++k)
+        if (k % 9 < 8) part.push_back(found.corners[static_cast<std::size_t>(k)]);
+    EXPECT_TRUE(detail::is_part(draw(scene).view(), {{part.data(), 48}, {8, 6}}, false));
+}
+
 TEST(Checkerboard, DoesNotDependOnTheStride) {
     BoardScene scene;
     scene.picture = {131, 97};

@@ -67,6 +67,26 @@ TEST(SaddlePoint, IsFoundWithinTwoHundredthsOfAPixel) {
     }
 }
 
+// Brightness that falls across the image moves the place of the mean gradient, but hardly that of edges,
+// which cross at 60 degrees here so that products of both gradients count.
+TEST(SaddlePoint, IsNotPulledByUnevenLight) {
+    GuardedImage<Gray8> image({41, 41});
+    const double x = 20.3;
+    const double y = 19.6;
+    for (int row = 0; row < 41; ++row)
+        for (int column = 0; column < 41; ++column) {
+            const double dx = column - x;
+            const double dy = row - y;
+            const double u = dy * std::cos(0.3) - dx * std::sin(0.3);
+            const double v = dy * std::cos(1.347) - dx * std::sin(1.347);
+            const double share = std::erf(u / 1.3) * std::erf(v / 1.3);
+            image(column, row) = static_cast<Gray8>(std::lround((130 + 100 * share) * (1 - column / 800.0)));
+        }
+    const Result<SubPixelPoint> found = refine_saddle_point(image.view(), at(21, 20), SubPixel::from_int(12));
+    ASSERT_TRUE(found.ok());
+    EXPECT_LT(error(found, x, y), 0.04);
+}
+
 TEST(SaddlePoint, MovesWithTheImage) {
     const GuardedImage<Gray8> image = saddle({41, 42}, 20.3, 19.8, 0.4, 1);
     const ImageView<const Gray8> view = image.view();

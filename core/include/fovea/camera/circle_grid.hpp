@@ -257,8 +257,8 @@ private:
         });
     }
 
-    /// Looks for columns and rows along which the lattice is the grid, whole; of several, as find_circle_grid()
-    /// says.
+    /// Looks for columns and rows along which the lattice is the grid, whole; of several, as
+    /// find_circle_grid() says.
     bool read_axes() {
         bool found = false;
         BoardVector best;

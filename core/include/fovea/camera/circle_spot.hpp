@@ -27,8 +27,8 @@ struct CircleSpot {
     std::int64_t xx = 0, xy = 0, yy = 0;
 };
 
-/// The spot of a region that is an ellipse: its area is that of the ellipse with its moments to a quarter, and
-/// one axis is at most six times the other.
+/// The spot of a region that is an ellipse: its area is that of the ellipse with its moments to a quarter,
+/// and one axis is at most six times the other.
 ///
 /// Errors  not_found for other shapes
 inline Result<CircleSpot> circle_spot(const Region& region) {

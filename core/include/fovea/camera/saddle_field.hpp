@@ -174,8 +174,8 @@ public:
     }
     int least_step() const { return least_contrast_ << 6; }
 
-    /// Whether edges leave a place on all four sides, along u and v and back, with colours that alternate: it is
-    /// bright between u and v for sign 1.
+    /// Whether edges leave a place on all four sides, along u and v and back, with colours that alternate: it
+    /// is bright between u and v for sign 1.
     bool crosses(BoardVector place, BoardVector u, BoardVector v, int sign) const {
         const BoardVector side_u = side_of(v);
         const BoardVector side_v = side_of(u);

@@ -43,11 +43,11 @@ struct SaddleWindow {
 ///           image; degenerate where the surface is no saddle; not_found if the place is farther than half
 ///           the radius from start, or does not come to rest
 /// Source    edges: Foerstner and Guelch, "A fast operator for detection and precise location of distinct
-///           points, corners and centres of circular features", 1987. The toolkit's CornerSubpixel::Refine and
-///           OpenCV's cornerSubPix sample a square at fractions of pixels, with weights that do not end at 0.
-///           Here pixels count as they are, smoothed so that the ends of edges do not pull to their centres,
-///           and the weight (1 - (distance / radius)^2)^2 moves with the place. Both places are the corner
-///           itself wherever the image is symmetric about it, whatever the blur
+///           points, corners and centres of circular features", 1987. The toolkit's Refine and OpenCV's
+///           cornerSubPix sample a square at fractions of pixels, with weights that do not end at 0. Here
+///           pixels count as they are, smoothed so that the ends of edges do not pull to their centres, and
+///           the weight (1 - (distance / radius)^2)^2 moves with the place. Both places are the corner itself
+///           wherever the image is symmetric about it, whatever the blur
 inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
                                                  SubPixel radius);
 
