@@ -272,8 +272,8 @@ TEST(Checkerboard, RefusesWhatItCannotTake) {
     }
 }
 
-// Corners as another finder has them (OpenCV 4.6, cornerSubPix with a window of 23 pixels): the first and the
-// last of each view. They say which corner is the first; some are 6 px off, pulled beyond a square.
+// Corners as another finder has them (OpenCV 4.6, cornerSubPix with a window of 23 pixels): the first and
+// the last of each view. They say which corner is the first; some are 6 px off, pulled beyond a square.
 TEST(Checkerboard, IsFoundInAllPhotosOfAStereoRig) {
     const int ends[26][4] = {
         {244, 94, 510, 266}, {256, 362, 540, 133}, {277, 72, 545, 391},  {189, 131, 522, 338},

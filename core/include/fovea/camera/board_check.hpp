@@ -117,8 +117,8 @@ inline bool is_checkered(ImageView<const Gray8> src, const BoardPlaces& places, 
 }
 
 /// Whether four squares of alternating colours meet near a place, u and v away from its neighbours: between
-/// the darker of the bright ones and the brighter of the dark ones there is half of the step that the two have
-/// which lie back along u.
+/// the darker of the bright ones and the brighter of the dark ones there is half of the step that the two
+/// have which lie back along u.
 /// @param bright  it is between u and v, and opposite
 inline bool is_crossing(ImageView<const Gray8> src, BoardVector place, BoardVector u, BoardVector v,
                         bool bright) {

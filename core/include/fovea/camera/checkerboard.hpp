@@ -27,11 +27,11 @@ namespace fovea {
 // ---- Interface --------------------------------------------------------------------
 
 struct CheckerboardOptions {
-    /// Between a dark and a bright square, where it is least; 4..255 grey levels. Lower finds boards in worse
-    /// light, and takes longer over what is none.
+    /// Between a dark and a bright square, where it is least; 4..255 grey levels. Lower finds boards in
+    /// worse light, and takes longer over what is none.
     int least_contrast = 16;
-    /// How many corners of the image, the strongest, are looked at; 64..8192. More find a board in front of a
-    /// restless ground, at 16 bytes each.
+    /// How many corners of the image, the strongest, are looked at; 64..8192. More find a board in front of
+    /// a restless ground, at 16 bytes each.
     int candidates = 1000;
 };
 
@@ -42,25 +42,26 @@ constexpr std::int64_t find_checkerboard_scratch(Size size, Size board, const Ch
 
 /// The inner corners of a checkerboard: all of them, or none.
 ///
-/// Shapes    board: columns and rows of inner corners, 3 to 64 each. A square is to have 6 px or more where it
-///           is smallest, across it too when it is seen askew
+/// Shapes    board: columns and rows of inner corners, 3 to 64 each. A square is to have 6 px or more where
+///           it is smallest, across it too when it is seen askew
 /// Units     1/256 px
-/// Order     row by row, `columns` in a row, and rows to the right hand of the way along a row, as x and y are.
-///           First comes the corner whose outermost square is dark: with one side odd and the other even there
-///           is one such corner, which stays the first however the board turns. Where several are alike (both
-///           sides odd or both even), the one whose row runs most to the right; of two such, down
+/// Order     row by row, `columns` in a row, and rows to the right hand of the way along a row, as x and y
+///           are. First comes the corner whose outermost square is dark: with one side odd and the other
+///           even there is one such corner, which stays the first however the board turns. Where several are
+///           alike (both sides odd or both even), the one whose row runs most to the right; of two such,
+///           down
 /// Scratch   find_checkerboard_scratch(src.size(), board, options) bytes, undefined afterwards
-/// Time      the pixels, about 35 instructions each, for every halving that is looked at, from the smallest up
-///           to the first in which the board is found. Then work ends: places that are looked at for corners
-///           are 8 times the pixels at most
-/// Errors    empty_image; image_too_large; bad_argument; scratch_too_small; buffer_too_small for fewer places
-///           than the board has; not_found: also for a board of which a corner is hidden or outside, and for a
-///           larger board
+/// Time      the pixels, about 35 instructions each, for every halving that is looked at, from the smallest
+///           up to the first in which the board is found. Then work ends: places that are looked at for
+///           corners are 8 times the pixels at most
+/// Errors    empty_image; image_too_large; bad_argument; scratch_too_small; buffer_too_small for fewer
+///           places than the board has; not_found: also for a board of which a corner is hidden or outside,
+///           and for a larger board
 /// Source    the saddle by second derivatives: Chen and Zhang, "A new sub-pixel detector for x-corners in
-///           camera calibration targets", WSCG 2005; a lattice that grows: Geiger et al., "Automatic camera and
-///           range sensor calibration using a single shot", ICRA 2012, here from edge to edge and with what
-///           lies between them looked at. Places by refine_saddle_point() on the image itself, in a window of
-///           0.45 squares
+///           camera calibration targets", WSCG 2005; a lattice that grows: Geiger et al., "Automatic camera
+///           and range sensor calibration using a single shot", ICRA 2012, here from edge to edge and with
+///           what lies between them looked at. Places by refine_saddle_point() on the image itself, in a
+///           window of 0.45 squares
 inline Status find_checkerboard(ImageView<const Gray8> src, Size board, const CheckerboardOptions& options,
                                 Span<std::uint8_t> scratch, Span<SubPixelPoint> corners);
 
@@ -326,8 +327,8 @@ private:
                            clamp<std::int32_t>(p.y, 0, (src_.height() - 1) * 256)}
             .point();
     }
-    /// Almost half of the squares around a corner: outer ones may be cut off there. More of small ones, and no
-    /// more than 32 px of large ones.
+    /// Almost half of the squares around a corner: outer ones may be cut off there. More of small ones, and
+    /// no more than 32 px of large ones.
     SaddleWindow window_at(LatticePlace at) const {
         const BoardVector u = lattice_.step(at, 0);
         const BoardVector v = lattice_.step(at, 1);

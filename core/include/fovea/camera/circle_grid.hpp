@@ -50,18 +50,18 @@ constexpr std::int64_t find_circle_grid_scratch(Size size, Size board, const Cir
 /// Units     1/256 px
 /// Order     row by row, rows to the right hand of the way along a row, as x and y are; an asymmetric grid
 ///           begins with a row that is not shifted. Where several orders are alike (turned by half, and by
-///           quarters if there are as many columns as rows; an asymmetric grid with an odd number of rows has
-///           one), the one whose row runs most to the right; of two such, down
-/// Rounding  centres by brightness, see Source. A circle seen askew has its centre not quite in the middle of
-///           its ellipse; that is of the lens and not corrected
+///           quarters if there are as many columns as rows; an asymmetric grid with an odd number of rows
+///           has one), the one whose row runs most to the right; of two such, down
+/// Rounding  centres by brightness, see Source. A circle seen askew has its centre not quite in the middle
+///           of its ellipse; that is of the lens and not corrected
 /// Scratch   find_circle_grid_scratch(src.size(), board, options) bytes, undefined afterwards
 /// Time      two thresholds of the pixels and their components for each tone and halving, from at most 1024
 ///           px on up to the first in which the grid is found
 /// Errors    empty_image; image_too_large above max_moment_side; bad_argument; scratch_too_small;
-///           buffer_too_small for fewer places than the grid has; not_found: also where a circle is hidden, or
-///           one more stands on the lattice
-/// Source    adaptive_threshold(), connected_components(), regions with the area of the ellipse that has their
-///           moments; a lattice grown from two neighbours, then read along any of its axes
+///           buffer_too_small for fewer places than the grid has; not_found: also where a circle is hidden,
+///           or one more stands on the lattice
+/// Source    adaptive_threshold(), connected_components(), regions with the area of the ellipse that has
+///           their moments; a lattice grown from two neighbours, then read along any of its axes
 inline Status find_circle_grid(ImageView<const Gray8> src, Size board, const CircleGridOptions& options,
                                Span<std::uint8_t> scratch, Span<SubPixelPoint> centres);
 

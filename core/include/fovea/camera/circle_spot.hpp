@@ -55,8 +55,8 @@ inline Result<CircleSpot> circle_spot(const Region& region) {
 }
 
 /// The centre of a spot by the brightness of the image: pixels count by how far they are from the ground
-/// towards the spot, from a quarter of the way on and fully from three quarters on, so that uneven light does
-/// not count. One step; repeat from where it leads.
+/// towards the spot, from a quarter of the way on and fully from three quarters on, so that uneven light
+/// does not count. One step; repeat from where it leads.
 ///
 /// Errors  not_found where there is no step of least_contrast from the ground to the spot
 inline Result<BoardVector> spot_centre(ImageView<const Gray8> src, const CircleSpot& spot, bool bright,

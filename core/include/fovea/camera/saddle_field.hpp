@@ -32,8 +32,8 @@ inline SaddleWay saddle_way(BoardVector v) {
             static_cast<std::int8_t>(v.y * std::int64_t{64} / length)};
 }
 
-/// A pixel around which four fields alternate. Between edges a and b, and opposite, it is bright; b is turned
-/// from a as y is from x, by less than half a turn.
+/// A pixel around which four fields alternate. Between edges a and b, and opposite, it is bright; b is
+/// turned from a as y is from x, by less than half a turn.
 struct SaddleCandidate {
     std::int32_t response = 0;
     std::int16_t x = 0;
@@ -174,8 +174,8 @@ public:
     }
     int least_step() const { return least_contrast_ << 6; }
 
-    /// Whether edges leave a place on all four sides, along u and v and back, with colours that alternate: it
-    /// is bright between u and v for sign 1.
+    /// Whether edges leave a place on all four sides, along u and v and back, with colours that alternate:
+    /// it is bright between u and v for sign 1.
     bool crosses(BoardVector place, BoardVector u, BoardVector v, int sign) const {
         const BoardVector side_u = side_of(v);
         const BoardVector side_v = side_of(u);

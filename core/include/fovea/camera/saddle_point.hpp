@@ -46,8 +46,8 @@ struct SaddleWindow {
 ///           points, corners and centres of circular features", 1987. The toolkit's Refine and OpenCV's
 ///           cornerSubPix sample a square at fractions of pixels, with weights that do not end at 0. Here
 ///           pixels count as they are, smoothed so that the ends of edges do not pull to their centres, and
-///           the weight (1 - (distance / radius)^2)^2 moves with the place. Both places are the corner itself
-///           wherever the image is symmetric about it, whatever the blur
+///           the weight (1 - (distance / radius)^2)^2 moves with the place. Both places are the corner
+///           itself wherever the image is symmetric about it, whatever the blur
 inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, SubPixelPoint start,
                                                  SubPixel radius);
 
@@ -63,8 +63,9 @@ inline Result<SubPixelPoint> refine_saddle_point(ImageView<const Gray8> src, Sub
 
 namespace detail {
 
-/// Sums of gradients in a disc, weighed; with distances in 1/2048 px. Largest: gradients of 12 * 255, weights
-/// that are 2^10 in the middle and a third of it in the mean, distances of 2^17, 2^13.7 pixels make 2^62.3.
+/// Sums of gradients in a disc, weighed; with distances in 1/2048 px. Largest: gradients of 12 * 255,
+/// weights that are 2^10 in the middle and a third of it in the mean, distances of 2^17, 2^13.7 pixels make
+/// 2^62.3.
 struct SaddleSums {
     std::int64_t xx = 0, xy = 0, yy = 0;
     std::int64_t x = 0, y = 0;
