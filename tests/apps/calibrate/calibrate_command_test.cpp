@@ -99,7 +99,13 @@ TEST_F(CalibrateCommand, FindsTheCameraThatRenderedThePictures) {
         EXPECT_EQ(lines[i]["used"].text, "true");
         EXPECT_EQ(lines[i]["corners"].text, "42");
         EXPECT_LT(lines[i]["residual_px"].number(), 0.2);
+        EXPECT_GT(lines[i]["worst_px"].number(), lines[i]["residual_px"].number());
+        EXPECT_LT(lines[i]["worst_px"].number(), 0.5);
     }
+    // The first board faces the camera 190 mm away; its middle is nearly where the camera looks.
+    EXPECT_LT(lines[0]["tilt_deg"].number(), 1);
+    EXPECT_NEAR(lines[0]["distance_mm"].number(), 190, 1.5);
+    EXPECT_NEAR(lines[5]["tilt_deg"].number(), 36, 1);
     const Json& result = lines.back();
     EXPECT_LT(result["rms_px"].number(), 0.15);
     EXPECT_EQ(result["views_used"].text, "10");
