@@ -12,6 +12,7 @@
 #include <fovea/linear/cholesky.hpp>
 #include <fovea/linear/eigen.hpp>
 #include <fovea/linear/svd.hpp>
+#include <fovea/match/fit_homography.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/number/real.hpp>
 #include <fovea/number/trigonometry.hpp>
@@ -121,6 +122,23 @@ int main() {
     const MatrixView<Real> three(&matrix(0, 0), 3, 3, 9);
     count_once([&] { wanted(svd(three, MatrixView<Real>(&vectors(0, 0), 3, 3, 9), Span<Real>(values, 3))); });
     tell("svd, 3 x 3");
+
+    // A board of 9x6 corners, tilted.
+    static PlanePoint corners[54];
+    static SubPixelPoint pixels[54];
+    for (int i = 0; i < 54; ++i) {
+        const int x = i % 9;
+        const int y = i / 9;
+        const int weight = 100 + x - 2 * y;
+        corners[i] = {25 * x, 25 * y};
+        const int noise = random.between(-50, 50);
+        pixels[i] = {SubPixel::from_raw((100 + 30 * x) * 25600 / weight + noise),
+                     SubPixel::from_raw((80 + 30 * y) * 25600 / weight - noise)};
+    }
+    count_once([&] {
+        wanted(fit_homography(Span<const PlanePoint>(corners), Span<const SubPixelPoint>(pixels)).status());
+    });
+    tell("fit_homography, 54 pairs");
 
     static const Camera<> camera = {
         Real::from_int(580),     Real::from_int(581),      Real::from_int(320),

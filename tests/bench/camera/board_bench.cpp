@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cstdlib>
 #include <vector>
 
 #include <fovea/base/random.hpp>
@@ -30,6 +31,11 @@ test::BoardPicture board_in(Size size, test::BoardPattern pattern) {
     scene.noise = 2;
     Random random(1);
     return test::BoardView(scene).render(random);
+}
+
+/// What is timed has found its board.
+void must_be_ok(Status status) {
+    if (status != Status::ok) std::abort();
 }
 
 /// Where the board is there, with corners to a fraction of a pixel; and where none is.

@@ -106,9 +106,12 @@ public:
         each([&](WholePlace a, WholePlace b) {
             for (const std::int64_t side : {a.x, a.y, b.x, b.y})
                 if (side > most_from_mean || side < -most_from_mean) far = true;
+            widest_ = {maximum(widest_.x, a.x < 0 ? -a.x : a.x), maximum(widest_.y, a.y < 0 ? -a.y : a.y)};
         });
         return far ? Status::out_of_range : Status::ok;
     }
+    /// How far places are from their mean, along each axis.
+    constexpr WholePlace widest() const { return widest_; }
     /// Calls visit with both places of each pair, from the means.
     template <class Visit>
     constexpr void each(Visit visit) const {
@@ -143,6 +146,7 @@ private:
     Use use_;
     WholePlace origin_;
     WholePlace centre_;
+    WholePlace widest_;
 };
 
 /// fit_homography() of the pairs for which use(index) holds.
@@ -163,11 +167,17 @@ constexpr Result<Matrix<3, 3, Scalar>> fit_homography_to(Span<const From> from, 
     if (status != Status::ok) return status;
     const Scalar zero = scalar_of<Scalar>(0);
     const Scalar one = scalar_of<Scalar>(1);
-    bool in_front = true;
-    pairs.each([&](WholePlace a, WholePlace) {
-        const Scalar weight = one + h[6] * scalar_of<Scalar>(a.x) + h[7] * scalar_of<Scalar>(a.y);
-        if (!(zero < weight)) in_front = false;
-    });
+    // In front of the horizon for certain, or looked at one by one.
+    const WholePlace widest = pairs.widest();
+    bool in_front =
+        absolute(h[6]) * scalar_of<Scalar>(widest.x) + absolute(h[7]) * scalar_of<Scalar>(widest.y) < one;
+    if (!in_front) {
+        in_front = true;
+        pairs.each([&](WholePlace a, WholePlace) {
+            const Scalar weight = one + h[6] * scalar_of<Scalar>(a.x) + h[7] * scalar_of<Scalar>(a.y);
+            if (!(zero < weight)) in_front = false;
+        });
+    }
     if (!in_front) return Status::degenerate;
     const Matrix<3, 3, Scalar> map(h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], one);
     return pairs.uncentred(map);
