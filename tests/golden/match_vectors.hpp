@@ -28,8 +28,8 @@ struct MatchPairs {
     std::uint8_t agrees[match_pairs] = {};
 
     MatchPairs(Random& random, bool all_right) {
-        const int turn = random.between(-200, 200);
-        const int tilt = random.between(-60, 60);
+        const std::int64_t turn = random.between(-200, 200);
+        const std::int64_t tilt = random.between(-60, 60);
         for (int i = 0; i < match_pairs; ++i) {
             const int x = random.between(0, 640);
             const int y = random.between(0, 480);
