@@ -64,7 +64,6 @@ constexpr Result<Vector<2, Scalar>> map_point(const Matrix<3, 3, Scalar>& homogr
 
 namespace detail {
 
-inline constexpr std::ptrdiff_t most_pairs = std::ptrdiff_t{1} << 20;
 inline constexpr std::int64_t most_from_mean = std::int64_t{1} << 26;
 
 /// A place in its own units, of which there are 2^bits in what the caller counts in.

@@ -3,6 +3,7 @@
 // Places of objects, in whole units of the user's choice: what is seen at a place of an image.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace fovea {
@@ -28,4 +29,10 @@ struct SpacePoint {
     friend constexpr bool operator!=(SpacePoint a, SpacePoint b) { return !(a == b); }
 };
 
+namespace detail {
+
+/// Of places that a fit takes: bounds its sums.
+inline constexpr std::ptrdiff_t most_pairs = std::ptrdiff_t{1} << 20;
+
+}  // namespace detail
 }  // namespace fovea

@@ -12,6 +12,7 @@
 #include <fovea/linear/eigen.hpp>
 #include <fovea/linear/matrix.hpp>
 #include <fovea/linear/svd.hpp>
+#include <fovea/match/point_pair.hpp>
 #include <fovea/number/integer.hpp>
 #include <fovea/number/scalar.hpp>
 #include <fovea/stereo/epipolar.hpp>
@@ -43,7 +44,6 @@ constexpr Result<Matrix<3, 3, Scalar>> fit_fundamental(Span<const SubPixelPoint>
 
 namespace detail {
 
-inline constexpr std::ptrdiff_t most_stereo_pairs = std::ptrdiff_t{1} << 20;
 /// What a pixel may be wrong by, in fit_fundamental().
 template <class Scalar>
 constexpr Scalar pixel_error() {
@@ -181,7 +181,7 @@ constexpr bool far_from_origin(SubPixelPoint pixel) {
 
 constexpr Status check_stereo_pairs(Span<const SubPixelPoint> left, Span<const SubPixelPoint> right) {
     if (left.size() != right.size()) return Status::size_mismatch;
-    if (left.size() < 8 || left.size() > most_stereo_pairs) return Status::bad_argument;
+    if (left.size() < 8 || left.size() > most_pairs) return Status::bad_argument;
     for (std::ptrdiff_t i = 0; i < left.size(); ++i)
         if (far_from_origin(left[i]) || far_from_origin(right[i])) return Status::out_of_range;
     return Status::ok;

@@ -94,7 +94,7 @@ constexpr Scalar ray_error() {
 template <class Scalar>
 constexpr Status check_ray_pairs(Span<const Vector<2, Scalar>> left, Span<const Vector<2, Scalar>> right) {
     if (left.size() != right.size()) return Status::size_mismatch;
-    if (left.size() < 8 || left.size() > most_stereo_pairs) return Status::bad_argument;
+    if (left.size() < 8 || left.size() > most_pairs) return Status::bad_argument;
     const Scalar most = scalar_of<Scalar>(16);
     for (std::ptrdiff_t i = 0; i < left.size(); ++i)
         for (int side = 0; side < 2; ++side)

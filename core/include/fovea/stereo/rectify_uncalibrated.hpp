@@ -151,7 +151,7 @@ constexpr Result<RectifyingHomographies<Scalar>> rectify_uncalibrated(const Matr
     if (size.empty()) return Status::empty_image;
     if (left.size() != right.size()) return Status::size_mismatch;
     if (size.width > max_image_side || size.height > max_image_side) return Status::image_too_large;
-    if (left.size() < 3 || left.size() > detail::most_stereo_pairs) return Status::bad_argument;
+    if (left.size() < 3 || left.size() > detail::most_pairs) return Status::bad_argument;
     for (std::ptrdiff_t i = 0; i < left.size(); ++i)
         if (detail::far_from_origin(left[i]) || detail::far_from_origin(right[i]))
             return Status::out_of_range;

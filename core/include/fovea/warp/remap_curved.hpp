@@ -166,19 +166,7 @@ Status remap_curved_grid(NonDeduced<ImageView<const Pixel>> src, ImageView<const
 }
 
 inline Status expand_curved_map_grid(ImageView<const MapPoint> grid, int y, Span<MapPoint> row) {
-    if (grid.empty() || row.empty()) return Status::empty_image;
-    const auto width = static_cast<int>(minimum<std::ptrdiff_t>(row.size(), max_image_side + 1));
-    if (grid.width() != map_grid_size({width, 1}).width || grid.height() < 2) return Status::size_mismatch;
-    if (y < 0 || y > (grid.height() - 1) * map_grid_step) return Status::out_of_range;
-    const kernels::CurvedGridPlaces places{grid};
-    for (int x = 0; x < width; x += simd::run_length) {
-        simd::PlaceRun run;
-        const int count = minimum(width - x, simd::run_length);
-        places(x, y, count, run);
-        for (int i = 0; i < count; ++i)
-            row[x + i] = {SubPixel::from_raw(run.x[i]), SubPixel::from_raw(run.y[i])};
-    }
-    return Status::ok;
+    return kernels::expand_grid<kernels::CurvedGridPlaces>(grid, y, row);
 }
 
 }  // namespace FOVEA_ISA
