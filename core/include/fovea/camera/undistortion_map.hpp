@@ -41,15 +41,14 @@ public:
     constexpr Size size() const { return size_; }
 
     /// Where the pixels (0, y), (1, y), ... of the output come from; no_fine_point where the lens says
-    ///       nothing,
-    /// and beyond 32767 px.
+    /// nothing, and beyond 32767 px.
     ///
     /// Shapes    y and places.size() may go up to 15 px beyond the output, as grids do
     /// Rounding  within 1e-4 px of the real place, for pictures up to 3840x2160 whose view is less than 120
     ///           degrees wide; tests/core/camera measures 3e-5
     /// Errors    empty_image, size_mismatch for a map without content or too many places; out_of_range for y
-    /// Source    numerics of the project: rays grow by steps of 2^-44, coordinates have 30 bits of their
-    ///           largest, the lens 28
+    /// Source    book eq. 2.8 and 2.9 in integers: rays grow by steps of 2^-44, coordinates have 30 bits of
+    ///           their largest, the lens 28
     constexpr Status row(int y, Span<FinePoint> places) const;
     /// The same to 1/256 px, as remap() takes it.
     constexpr Status row(int y, Span<MapPoint> places) const;
